@@ -1,0 +1,67 @@
+//! The one error type: what was wrong, where, and what is allowed.
+
+use core::fmt;
+
+/// Why an input was refused: the place, the value and the allowed range.
+///
+/// ```
+/// use mean_information::cell::Cell;
+/// let refused = Cell::from_occupancy(1.25_f64).unwrap_err();
+/// assert_eq!(refused.to_string(), "occupancy is 1.25, allowed is 0 to 1");
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Error {
+    /// A number outside its domain.
+    OutOfRange {
+        /// The name of the argument.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+        /// The allowed range, in words.
+        allowed: &'static str,
+    },
+    /// A cell of a map outside the domain of its encoding.
+    Cell {
+        /// Row, from 0.
+        row: usize,
+        /// Column, from 0.
+        column: usize,
+        /// The stored value.
+        value: f64,
+        /// The allowed range, in words.
+        allowed: &'static str,
+    },
+    /// The number of cells is not width times height.
+    CellCount {
+        /// Cells given.
+        given: usize,
+        /// Columns.
+        width: usize,
+        /// Rows.
+        height: usize,
+    },
+}
+
+impl Error {
+    /// An [`Error::OutOfRange`].
+    pub(crate) fn out_of_range(what: &'static str, value: f64, allowed: &'static str) -> Self {
+        Self::OutOfRange { what, value, allowed }
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::OutOfRange { what, value, allowed } => write!(f, "{what} is {value}, allowed is {allowed}"),
+            Self::Cell { row, column, value, allowed } => {
+                write!(f, "cell at row {row}, column {column} is {value}, allowed is {allowed}")
+            }
+            Self::CellCount { given, width, height } => {
+                write!(f, "{given} cells were given for a map of {width} columns and {height} rows")
+            }
+        }
+    }
+}
+
+impl core::error::Error for Error {}

@@ -1,0 +1,79 @@
+//! Reference implementation of the **mean information** of occupancy maps.
+//!
+//! The mean information (Blanco, *Derivation of an Expression for the Mean Information Maximum Value*, University of Malaga)
+//! says how certain and consistent an occupancy map is. Per cell, `I = 1 - H` with the Bernoulli entropy `H` in bits; the
+//! mean information is the sum of `I` over the number of observed cells, those with `p != 1/2`. It needs no ground truth, lies
+//! in `[0, 1]`, and unlike the entropy it does not depend on the size of the map and hardly on its resolution.
+//!
+//! ```
+//! use mean_information::map::{Geometry, Grid, encoding::Probability};
+//!
+//! // Four rows of a wall (0.9) behind free space (0.1), with two cells nobody has seen.
+//! let geometry = Geometry::new(0.05, [0.0, 0.0])?;
+//! let map = Grid::<Probability<f64>>::new(
+//!     3,
+//!     4,
+//!     geometry,
+//!     vec![0.1, 0.1, 0.9, 0.1, 0.1, 0.9, 0.1, 0.2, 0.5, 0.1, 0.7, 0.5],
+//! )?;
+//! let tally = map.tally();
+//! assert_eq!(tally.observed(), 10);
+//! assert_eq!(tally.information(), 4.644816257167696); // bits
+//! assert_eq!(tally.mean_information(), 0.46448162571676954); // bits per observed cell
+//! # Ok::<(), mean_information::Error>(())
+//! ```
+//!
+//! # What is where
+//! The modules follow the report.
+//!
+//! | module | holds | equations |
+//! |---|---|---|
+//! | [`cell`] | entropy and information of one cell, correctly rounded | 1, 3 |
+//! | [`tally`] | the exact, mergeable sums over a map | 2, 4 |
+//! | [`map`] | grids, cell encodings, pooling | |
+//! | [`real`] | the two scalar types | |
+//! | [`book`] | the derivation, chapter by chapter, with every claim executed | |
+//!
+//! # What it promises
+//! * Entropy and information of a cell are **correctly rounded**, in `f32` and `f64`, for every input.
+//! * Sums over cells are **exact** until they are read, then rounded once: no order, split or thread count changes a bit.
+//! * The same bits on every platform: everything is integer arithmetic, and no elementary function of the standard library is
+//!   called.
+//! * Unknown is exact: `p = 1/2`, and nothing here turns an unknown cell into an observed one.
+//! * No panic on input: constructors return an [`Error`] that names the argument, its value and the allowed range; functions of
+//!   floats return NaN outside their domain.
+//!
+//! # What it does not do
+//! It reads no files and draws no pictures; the command `meaninfo` (package `mean-information-cli`) does.
+//!
+//! # Features
+//! * `std` (default): passes on the feature of the same name to `num-traits`. Without it the crate is `no_std` + `alloc`.
+//! * `serde`: tallies can be written and read, so that parts of a map measured on several machines merge to the same bits.
+//!
+//! The one dependency is `num-traits`, for the vocabulary of generic float code.
+#![cfg_attr(not(feature = "std"), no_std)]
+
+extern crate alloc;
+
+pub mod cell;
+mod error;
+pub mod map;
+pub mod real;
+mod rounded;
+pub mod tally;
+
+pub use error::Error;
+pub use real::Real;
+pub use tally::{ExactSum, Tally};
+
+/// The derivation, chapter by chapter. Every number and every claim that can be executed is.
+pub mod book {
+    #[doc = include_str!("../docs/cell.md")]
+    pub mod cell {}
+    #[doc = include_str!("../docs/map.md")]
+    pub mod map {}
+    #[doc = include_str!("../docs/rounding.md")]
+    pub mod rounding {}
+    #[doc = include_str!("../docs/guarantees.md")]
+    pub mod guarantees {}
+}

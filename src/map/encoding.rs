@@ -1,0 +1,201 @@
+//! How cells are stored: as probabilities, as log-odds, in ROS's percent and in MRPT's bytes.
+//!
+//! An encoding gives every stored value its exact meaning. Unknown is exact in all of them: `p = 1/2`, `l = 0`.
+
+use crate::cell::{self, Cell};
+use crate::real::Real;
+use crate::tally::Tally;
+use core::fmt::Debug;
+use core::marker::PhantomData;
+
+/// What a stored cell means. Implement it to measure maps in a format of your own.
+pub trait Encoding: Copy + Debug {
+    /// What is stored per cell.
+    type Stored: Copy + Debug + PartialEq + Send + Sync;
+    /// The type of the cell's occupancy, entropy and information.
+    type Float: Real;
+    /// The allowed values, in words, for error messages.
+    const ALLOWED: &'static str;
+
+    /// The stored value of an unknown cell.
+    fn unknown() -> Self::Stored;
+
+    /// The stored value as a number, for error messages.
+    fn value(stored: Self::Stored) -> f64;
+
+    /// The cell that is stored; `None` if the value is not allowed.
+    fn cell(stored: Self::Stored) -> Option<Cell<Self::Float>>;
+
+    /// The occupancy of the stored cell, 1/2 if unknown; `None` if the value is not allowed.
+    fn occupancy(stored: Self::Stored) -> Option<Self::Float>;
+
+    /// Whether the value is allowed: whether [`Encoding::cell`] and [`Encoding::occupancy`] are `Some`.
+    fn is_valid(stored: Self::Stored) -> bool {
+        Self::occupancy(stored).is_some()
+    }
+
+    /// The tally of the stored cells, passing over values that are not allowed.
+    fn tally(cells: &[Self::Stored]) -> Tally<Self::Float> {
+        cells.iter().filter_map(|&stored| Self::cell(stored)).collect()
+    }
+}
+
+/// Occupancy probabilities `p` in `[0, 1]`; unknown is 1/2.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Probability<T>(PhantomData<T>);
+
+impl<T: Real> Encoding for Probability<T> {
+    type Stored = T;
+    type Float = T;
+    const ALLOWED: &'static str = "a probability from 0 to 1";
+
+    fn unknown() -> T {
+        T::HALF
+    }
+
+    fn value(p: T) -> f64 {
+        p.widen()
+    }
+
+    fn cell(p: T) -> Option<Cell<T>> {
+        Cell::from_occupancy(p).ok()
+    }
+
+    fn occupancy(p: T) -> Option<T> {
+        (p >= T::zero() && p <= T::one()).then_some(p)
+    }
+}
+
+/// Log-odds `l = ln(p / (1-p))` in nats; unknown is 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LogOdds<T>(PhantomData<T>);
+
+impl<T: Real> Encoding for LogOdds<T> {
+    type Stored = T;
+    type Float = T;
+    const ALLOWED: &'static str = "log-odds in nats, infinities included, not NaN";
+
+    fn unknown() -> T {
+        T::zero()
+    }
+
+    fn value(l: T) -> f64 {
+        l.widen()
+    }
+
+    fn cell(l: T) -> Option<Cell<T>> {
+        Cell::from_log_odds(l).ok()
+    }
+
+    fn occupancy(l: T) -> Option<T> {
+        (!l.is_nan()).then(|| cell::occupancy_from_log_odds(l))
+    }
+
+    fn is_valid(l: T) -> bool {
+        !l.is_nan()
+    }
+}
+
+/// ROS's `nav_msgs/OccupancyGrid`: a percentage 0..=100, or -1 for unknown; 50 is `p = 1/2`, hence unknown too.
+///
+/// `p` is the `f64` nearest to `percent / 100`.
+///
+/// ```
+/// use mean_information::map::encoding::{Encoding, Percent};
+/// assert_eq!(Percent::occupancy(29), Some(0.29));
+/// assert_eq!(Percent::occupancy(-1), Some(0.5));
+/// assert_eq!(Percent::occupancy(101), None);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Percent;
+
+impl Encoding for Percent {
+    type Stored = i8;
+    type Float = f64;
+    const ALLOWED: &'static str = "a percentage from 0 to 100, or -1 for unknown";
+
+    fn unknown() -> i8 {
+        -1
+    }
+
+    fn value(percent: i8) -> f64 {
+        f64::from(percent)
+    }
+
+    fn cell(percent: i8) -> Option<Cell<f64>> {
+        Self::occupancy(percent).and_then(|p| Cell::from_occupancy(p).ok())
+    }
+
+    fn occupancy(percent: i8) -> Option<f64> {
+        match percent {
+            -1 => Some(0.5),
+            0..=100 => Some(f64::from(percent) / 100.0),
+            _ => None,
+        }
+    }
+
+    fn tally(cells: &[i8]) -> Tally<f64> {
+        tally_of_bytes::<Self>(cells)
+    }
+}
+
+/// MRPT's `COccupancyGridMap2D` with 8-bit cells: 16 times the log-odds of being **free**, in nats; 0 is unknown.
+///
+/// -128 reads as -127, as in MRPT, so that the scale is symmetric.
+///
+/// ```
+/// use mean_information::map::encoding::{Encoding, MrptLogOdds};
+/// assert_eq!(MrptLogOdds::occupancy(-32), Some(0.8807970779778824));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MrptLogOdds;
+
+impl MrptLogOdds {
+    /// The log-odds of being occupied, in nats; exact.
+    fn log_odds(stored: i8) -> f64 {
+        f64::from(stored.max(-127)) / -16.0
+    }
+}
+
+impl Encoding for MrptLogOdds {
+    type Stored = i8;
+    type Float = f64;
+    const ALLOWED: &'static str = "any byte";
+
+    fn unknown() -> i8 {
+        0
+    }
+
+    fn value(stored: i8) -> f64 {
+        f64::from(stored)
+    }
+
+    fn cell(stored: i8) -> Option<Cell<f64>> {
+        Cell::from_log_odds(Self::log_odds(stored)).ok()
+    }
+
+    fn occupancy(stored: i8) -> Option<f64> {
+        Some(cell::occupancy_from_log_odds(Self::log_odds(stored)))
+    }
+
+    fn tally(cells: &[i8]) -> Tally<f64> {
+        tally_of_bytes::<Self>(cells)
+    }
+}
+
+/// Counts each of the 256 values first, then adds 256 exact terms: the same sum, since it is exact.
+fn tally_of_bytes<E: Encoding<Stored = i8>>(cells: &[i8]) -> Tally<E::Float> {
+    let mut counts = [0_u64; 256];
+    for &stored in cells {
+        counts[usize::from(stored as u8)] += 1;
+    }
+    let mut tally = Tally::new();
+    for (byte, &count) in (0_u8..=255).zip(&counts) {
+        if count > 0
+            && let Some(cell) = E::cell(byte as i8)
+        {
+            tally.add_many(cell, count);
+        }
+    }
+    tally
+}

@@ -1,0 +1,86 @@
+//! The Cartesian occupancy grid.
+
+use super::{Encoding, Geometry};
+use crate::error::Error;
+use crate::tally::Tally;
+use alloc::vec::Vec;
+
+/// An occupancy map: rows of square cells in one [`Encoding`], with its place in the world.
+///
+/// Row 0 is the lowest (smallest y), as in ROS's `OccupancyGrid` and in MRPT; cells are stored row by row.
+/// Memory: one stored value per cell.
+///
+/// ```
+/// use mean_information::map::{Geometry, Grid, encoding::Percent};
+/// let geometry = Geometry::new(0.05, [0.0, 0.0])?;
+/// let map = Grid::<Percent>::new(3, 2, geometry, vec![0, 2, 50, -1, 97, 100])?;
+/// let tally = map.tally();
+/// assert_eq!((tally.free(), tally.occupied(), tally.unknown()), (2, 2, 2));
+/// assert_eq!(tally.mean_information(), 0.9160418999066507);
+/// # Ok::<(), mean_information::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Grid<E: Encoding> {
+    width: usize,
+    height: usize,
+    geometry: Geometry,
+    cells: Vec<E::Stored>,
+}
+
+impl<E: Encoding> Grid<E> {
+    /// A grid of `width` columns and `height` rows from its cells, row by row from the lowest.
+    ///
+    /// # Errors
+    /// [`Error::CellCount`] if there are not width times height cells; [`Error::Cell`] naming the first cell whose value
+    /// the encoding does not allow.
+    pub fn new(
+        width: usize,
+        height: usize,
+        geometry: Geometry,
+        cells: Vec<E::Stored>,
+    ) -> Result<Self, Error> {
+        if width.checked_mul(height) != Some(cells.len()) {
+            return Err(Error::CellCount { given: cells.len(), width, height });
+        }
+        if let Some(bad) = cells.iter().position(|&stored| !E::is_valid(stored)) {
+            let (row, column, value) = (bad / width, bad % width, E::value(cells[bad]));
+            return Err(Error::Cell { row, column, value, allowed: E::ALLOWED });
+        }
+        Ok(Self { width, height, geometry, cells })
+    }
+
+    /// Columns.
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Rows.
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// Resolution and origin.
+    pub fn geometry(&self) -> &Geometry {
+        &self.geometry
+    }
+
+    /// The stored cells, row by row from the lowest.
+    pub fn cells(&self) -> &[E::Stored] {
+        &self.cells
+    }
+
+    /// The stored cells of one row; `None` beyond the last.
+    pub fn row(&self, row: usize) -> Option<&[E::Stored]> {
+        (row < self.height).then(|| &self.cells[row * self.width..][..self.width])
+    }
+
+    /// The occupancy of one cell; `None` outside the grid.
+    pub fn occupancy(&self, row: usize, column: usize) -> Option<E::Float> {
+        self.row(row)?.get(column).and_then(|&stored| E::occupancy(stored))
+    }
+
+    /// Entropy, information and counts over all cells (Eqs. 2 to 4).
+    pub fn tally(&self) -> Tally<E::Float> {
+        E::tally(&self.cells)
+    }
+}

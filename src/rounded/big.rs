@@ -1,0 +1,198 @@
+//! Fixed-point numbers of any precision with a counted error: [`Ball`].
+
+use alloc::{vec, vec::Vec};
+use core::cmp::Ordering;
+
+/// A real number in `[value - error, value + error]`, where `value` is a non-negative integer of limbs (lowest first) and
+/// `error` an integer, both in units of `2^(-64 (limbs - 1))`: the top limb is the integer part.
+///
+/// Every operation floors and counts what it dropped. Values must stay below `2^64`.
+#[derive(Clone, Debug)]
+pub(super) struct Ball {
+    limbs: Vec<u64>,
+    error: u128,
+}
+
+impl Ball {
+    /// `m 2^e` in `fraction` limbs below the integer part.
+    pub(super) fn dyadic(m: u64, e: i32, fraction: usize) -> Self {
+        let mut limbs = vec![0; fraction + 1];
+        limbs[fraction] = 1;
+        Self { limbs, error: 0 }.scaled(m, e)
+    }
+
+    fn integer_part(&self) -> u128 {
+        u128::from(self.limbs[self.limbs.len() - 1])
+    }
+
+    fn is_zero(&self) -> bool {
+        self.limbs.iter().all(|&limb| limb == 0)
+    }
+
+    pub(super) fn plus(mut self, other: &Self) -> Self {
+        let mut carry = false;
+        for (a, &b) in self.limbs.iter_mut().zip(&other.limbs) {
+            let (sum, first) = a.overflowing_add(b);
+            let (sum, second) = sum.overflowing_add(u64::from(carry));
+            *a = sum;
+            carry = first | second;
+        }
+        self.error = self.error.saturating_add(other.error);
+        self
+    }
+
+    /// `self - other`, a difference that is known not to be negative; 0 where flooring made it so.
+    pub(super) fn minus(mut self, other: &Self) -> Self {
+        self.error = self.error.saturating_add(other.error);
+        if compare_limbs(&self.limbs, &other.limbs) == Ordering::Less {
+            self.limbs.fill(0);
+            return self;
+        }
+        let mut borrow = false;
+        for (a, &b) in self.limbs.iter_mut().zip(&other.limbs) {
+            let (difference, first) = a.overflowing_sub(b);
+            let (difference, second) = difference.overflowing_sub(u64::from(borrow));
+            *a = difference;
+            borrow = first | second;
+        }
+        self
+    }
+
+    /// `self * m * 2^e`.
+    pub(super) fn scaled(&self, m: u64, e: i32) -> Self {
+        let n = self.limbs.len() as i64;
+        // The product of n + 1 limbs, moved by e = 64 whole + part.
+        let (whole, part) = (i64::from(e.div_euclid(64)), e.rem_euclid(64) as u32);
+        let mut product = vec![0; self.limbs.len() + 2];
+        let mut carry = 0_u128;
+        for (k, limb) in product.iter_mut().enumerate() {
+            // m 2^part has up to 127 bits: multiply by m, then shift the running sum limb by limb.
+            let term = self.limbs.get(k).map_or(0, |&a| u128::from(a) * u128::from(m));
+            let sum = carry + u128::from(term as u64);
+            *limb = sum as u64;
+            carry = (sum >> 64) + (term >> 64);
+        }
+        let bits_at =
+            |k: i64| -> u64 { usize::try_from(k).ok().and_then(|k| product.get(k)).copied().unwrap_or(0) };
+        let limbs = (0..n)
+            .map(|k| {
+                let (high, low) = (bits_at(k - whole), bits_at(k - whole - 1));
+                if part == 0 { high } else { high << part | low >> (64 - part) }
+            })
+            .collect();
+        let error = if self.error == 0 {
+            0
+        } else if e >= 0 {
+            let factor = 1_u128.checked_shl(e as u32).unwrap_or(u128::MAX);
+            self.error.saturating_mul(u128::from(m)).saturating_mul(factor)
+        } else {
+            (self.error.saturating_mul(u128::from(m))).checked_shr(e.unsigned_abs()).unwrap_or(0) + 1
+        };
+        Self { limbs, error: error.saturating_add(1) }
+    }
+
+    /// `self / divisor`.
+    pub(super) fn over(mut self, divisor: u64) -> Self {
+        let mut remainder = 0_u128;
+        for limb in self.limbs.iter_mut().rev() {
+            let dividend = remainder << 64 | u128::from(*limb);
+            *limb = (dividend / u128::from(divisor)) as u64;
+            remainder = dividend % u128::from(divisor);
+        }
+        self.error = (self.error / u128::from(divisor)).saturating_add(2);
+        self
+    }
+
+    pub(super) fn times(&self, other: &Self) -> Self {
+        let n = self.limbs.len();
+        let mut product = vec![0_u64; 2 * n];
+        for (i, &a) in self.limbs.iter().enumerate() {
+            let mut carry = 0;
+            for (j, &b) in other.limbs.iter().enumerate() {
+                let sum = u128::from(a) * u128::from(b) + u128::from(product[i + j]) + carry;
+                product[i + j] = sum as u64;
+                carry = sum >> 64;
+            }
+            product[i + n] = carry as u64;
+        }
+        // |ab - a'b'| <= a' eb + b' ea + ea eb, and ea eb is below one unit: ea, eb < 2^128, and a unit is at most 2^-256.
+        let error = (self.integer_part() + 1)
+            .saturating_mul(other.error)
+            .saturating_add((other.integer_part() + 1).saturating_mul(self.error));
+        Self { limbs: product[n - 1..2 * n - 1].to_vec(), error: error.saturating_add(2) }
+    }
+
+    /// `self / divisor` for a divisor in `[1, 2]` and a quotient below 2, bit by bit.
+    pub(super) fn divided_by(&self, divisor: &Self) -> Self {
+        let n = self.limbs.len();
+        let mut quotient = Self { limbs: vec![0; n], error: 0 };
+        let mut rest = self.clone();
+        for bit in (0..=64 * (n - 1)).rev() {
+            if compare_limbs(&rest.limbs, &divisor.limbs) != Ordering::Less {
+                rest = rest.minus(divisor);
+                quotient.limbs[bit / 64] |= 1 << (bit % 64);
+            }
+            rest = rest.scaled(1, 1);
+        }
+        // |a/b - a'/b'| <= ea / b' + (a/b) eb / b' <= ea + 2 eb.
+        quotient.error = self.error.saturating_add(divisor.error.saturating_mul(2)).saturating_add(2);
+        quotient
+    }
+
+    /// `sum_{j >= 0} q^j / (j + 1) = -ln(1 - q) / q` for `0 <= q <= 1/2`.
+    pub(super) fn log_series(&self) -> Self {
+        let fraction = self.limbs.len() - 1;
+        let mut power = Self::dyadic(1, 0, fraction);
+        let mut sum = power.clone();
+        for j in 2.. {
+            power = power.times(self);
+            if power.is_zero() {
+                break;
+            }
+            sum = sum.plus(&power.clone().over(j));
+        }
+        // The dropped powers: the first is at most its error, and each is at most half of the one before.
+        sum.error = sum.error.saturating_add(power.error.saturating_mul(2));
+        sum
+    }
+
+    /// `e^-r` for `0 <= r < 1`.
+    pub(super) fn exp_neg(&self) -> Self {
+        let fraction = self.limbs.len() - 1;
+        let mut term = Self::dyadic(1, 0, fraction);
+        let mut sum = term.clone();
+        for j in 1.. {
+            term = term.times(self).over(j);
+            if term.is_zero() {
+                break;
+            }
+            sum = if j % 2 == 0 { sum.plus(&term) } else { sum.minus(&term) };
+        }
+        // The dropped terms alternate and fall: their sum is at most the first, which is at most its error.
+        sum.error = sum.error.saturating_add(term.error);
+        sum
+    }
+
+    /// `ln 2 = -ln(1 - 1/2)`.
+    pub(super) fn ln2(fraction: usize) -> Self {
+        Self::dyadic(1, -1, fraction).log_series().scaled(1, -1)
+    }
+
+    /// Whether the number is above another; `None` if the balls meet.
+    pub(super) fn is_above(&self, other: &Self) -> Option<bool> {
+        let order = compare_limbs(&self.limbs, &other.limbs);
+        let (larger, smaller) = if order == Ordering::Less { (other, self) } else { (self, other) };
+        let difference = larger.clone().minus(smaller);
+        let error = difference.error;
+        let exceeds = difference.limbs.iter().enumerate().any(|(k, &limb)| match k {
+            0 | 1 => false,
+            _ => limb != 0,
+        }) || u128::from(difference.limbs[0]) | u128::from(difference.limbs[1]) << 64 > error;
+        exceeds.then_some(order == Ordering::Greater)
+    }
+}
+
+/// The order of two integers of the same number of limbs.
+fn compare_limbs(a: &[u64], b: &[u64]) -> Ordering {
+    a.iter().rev().cmp(b.iter().rev())
+}

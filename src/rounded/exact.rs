@@ -1,0 +1,102 @@
+//! Step 3 of Ziv's strategy: on which side of a midpoint the value lies, in as many bits as it takes.
+//!
+//! Each function compares two numbers that differ only if the value differs from the midpoint, with twice the bits
+//! until their balls part. For an occupancy this ends, since `H(p)` is irrational for every float `p` but 0, 1/2 and 1
+//! ([`docs/rounding.md`](crate::book::rounding)); for log-odds it ends if Schanuel's conjecture holds.
+//!
+//! The natural forms avoid every division by `ln 2` and every subtraction of near equals:
+//! `H ln 2 = q (n ln 2 + y D(y) + (1-q) D(q))` for `q = (1-y) 2^-n`, and `H ln 2 = q (l + D(q))` for `q = 1 / (1 + e^l)`, with
+//! `D(q) = -ln(1-q) / q = sum q^j / (j+1)`.
+
+use super::big::Ball;
+use super::enclose::minor;
+use super::enclosure::Midpoint;
+use super::fixed::exp2_neg;
+
+/// Tries 256 bits of fraction and `more`, and doubles them until the comparison is decided.
+fn decide(more: i32, compare: impl Fn(usize) -> Option<bool>) -> bool {
+    let mut fraction = 4 + more.max(0) as usize / 64;
+    loop {
+        if let Some(above) = compare(fraction) {
+            return above;
+        }
+        fraction *= 2;
+    }
+}
+
+/// The factor of `q` in `H ln 2` for `q = m 2^-n`, `2^52 <= m < 2^53`.
+fn entropy_over_occupancy(m: u64, n: i32, fraction: usize) -> Ball {
+    let q = Ball::dyadic(m, -n, fraction);
+    let y = Ball::dyadic((1 << 53) - m, -53, fraction);
+    let of_rest = Ball::dyadic(1, 0, fraction).minus(&q).times(&q.log_series());
+    Ball::ln2(fraction).scaled((n - 53) as u64, 0).plus(&y.times(&y.log_series())).plus(&of_rest)
+}
+
+/// Whether `H(p)` is above the midpoint, for `p = m 2^e`.
+pub(super) fn entropy(m: u64, e: i32, midpoint: Midpoint) -> bool {
+    let (m, n) = minor(m, -e);
+    decide(0, |fraction| {
+        let factor = entropy_over_occupancy(m, n, fraction);
+        let bound = Ball::ln2(fraction).scaled(midpoint.m, midpoint.exponent + n - 53);
+        factor.scaled(m, -53).is_above(&bound)
+    })
+}
+
+/// Whether `I(p)` is above the midpoint, for `p = m 2^e`.
+pub(super) fn information(m: u64, e: i32, midpoint: Midpoint) -> bool {
+    let (m, n) = minor(m, -e);
+    decide(-midpoint.exponent, |fraction| {
+        let entropy = entropy_over_occupancy(m, n, fraction).scaled(m, -n);
+        complement(Ball::ln2(fraction), midpoint).is_above(&entropy)
+    })
+}
+
+/// `(1 - c) unit` for the midpoint `c`.
+fn complement(unit: Ball, midpoint: Midpoint) -> Ball {
+    let part = unit.scaled(midpoint.m, midpoint.exponent);
+    unit.minus(&part)
+}
+
+/// `q 2^k` and `k`, for `q = 1 / (1 + e^l)` and `l = m 2^e < 2^10`.
+fn minor_occupancy(m: u64, e: i32, fraction: usize) -> (Ball, i32) {
+    let (_, k, _) = exp2_neg(m, e);
+    let rest = Ball::dyadic(m, e, fraction).minus(&Ball::ln2(fraction).scaled(k as u64, 0));
+    let y = rest.exp_neg();
+    let one_and_x = y.scaled(1, -k).plus(&Ball::dyadic(1, 0, fraction));
+    (y.divided_by(&one_and_x), k)
+}
+
+/// `H 2^k ln 2` and `k`, at log-odds `l = m 2^e < 2^10`.
+fn scaled_entropy(m: u64, e: i32, fraction: usize) -> (Ball, i32) {
+    let (q, k) = minor_occupancy(m, e, fraction);
+    let factor = q.scaled(1, -k).log_series().plus(&Ball::dyadic(m, e, fraction));
+    (q.times(&factor), k)
+}
+
+/// Whether `H` at log-odds `m 2^e` is above the midpoint.
+pub(super) fn entropy_from_log_odds(m: u64, e: i32, midpoint: Midpoint) -> bool {
+    decide(0, |fraction| {
+        let (entropy, k) = scaled_entropy(m, e, fraction);
+        entropy.is_above(&Ball::ln2(fraction).scaled(midpoint.m, midpoint.exponent + k))
+    })
+}
+
+/// Whether `I` at log-odds `m 2^e` is above the midpoint.
+pub(super) fn information_from_log_odds(m: u64, e: i32, midpoint: Midpoint) -> bool {
+    decide(-midpoint.exponent, |fraction| {
+        let (entropy, k) = scaled_entropy(m, e, fraction);
+        complement(Ball::ln2(fraction), midpoint).is_above(&entropy.scaled(1, -k))
+    })
+}
+
+/// Whether the occupancy at log-odds `±m 2^e` is above the midpoint.
+pub(super) fn occupancy(m: u64, e: i32, negative: bool, midpoint: Midpoint) -> bool {
+    decide(if negative { 0 } else { -midpoint.exponent }, |fraction| {
+        let (q, k) = minor_occupancy(m, e, fraction);
+        if negative {
+            q.is_above(&Ball::dyadic(midpoint.m, midpoint.exponent + k, fraction))
+        } else {
+            complement(Ball::dyadic(1, 0, fraction), midpoint).is_above(&q.scaled(1, -k))
+        }
+    })
+}

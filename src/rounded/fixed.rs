@@ -1,0 +1,124 @@
+//! Fixed-point kernels: `log2`, `2^-x`, the two power series about "unknown", the reciprocal.
+//!
+//! "Scale s" means an integer in units of `2^-s`. Every operation floors; [`docs/rounding.md`](crate::book::rounding)
+//! adds up the discarded fractions to the error bounds stated here, and `proofs/*.gappa` checks the sums.
+
+use super::constants::{
+    EIGHTH_INV_LN2, EXP_R, EXP_TABLE, HALF_INV_LN2, INFO_V, INFO_W, INV_LN2, LN2, LOG_Q, LOG_TABLE,
+};
+
+/// One, scale 120.
+pub(super) const ONE_120: u128 = 1 << 120;
+
+/// The error of [`log2`], in units of `2^-120`: below `2^-77`.
+pub(super) const LOG_ERROR: u128 = 1 << 43;
+/// The error of [`log2_1p_over`] for `|z| <= 2^-8`, in units of `2^-112`: below `2^-70`.
+pub(super) const LOG_1P_OVER_ERROR: u128 = 1 << 42;
+/// The error of [`exp2_neg`]'s mantissa, in units of `2^-126`: below `2^-78`.
+pub(super) const EXP_ERROR: u128 = 1 << 48;
+/// The error of [`information_series`] and [`information_series_log_odds`] before the last factor, in units of `2^-127`.
+pub(super) const SERIES_ERROR: u128 = 1 << 55;
+
+/// `floor(a b / 2^128)`, exactly.
+#[inline]
+pub(super) fn mul_high(a: u128, b: u128) -> u128 {
+    const LOW: u128 = u64::MAX as u128;
+    let (a1, a0, b1, b0) = (a >> 64, a & LOW, b >> 64, b & LOW);
+    let middle = a1 * b0 + ((a0 * b0) >> 64);
+    let other = a0 * b1 + (middle & LOW);
+    a1 * b1 + (middle >> 64) + (other >> 64)
+}
+
+/// `x >> shift`, 0 if all bits are shifted out.
+#[inline]
+pub(super) fn shift_right(x: u128, shift: i32) -> u128 {
+    debug_assert!(shift >= 0);
+    x.checked_shr(shift as u32).unwrap_or(0)
+}
+
+/// The polynomial of the given coefficients (lowest first) at `x` of the given scale, by Horner's rule; the result has the
+/// scale of the coefficients. Each of the `n - 1` steps floors once.
+#[inline]
+fn horner<const N: usize>(coefficients: &[i64; N], x: i64, scale: u32) -> i64 {
+    let (last, rest) = coefficients.split_last().expect("a polynomial has a coefficient");
+    rest.iter().rev().fold(*last, |sum, &c| c + ((i128::from(sum) * i128::from(x)) >> scale) as i64)
+}
+
+/// `log2(n / 2^k)`, scale 120, for `2^k <= n < 2^(k+1)` and `k <= 60`; error below [`LOG_ERROR`].
+#[inline]
+pub(super) fn log2(n: u64, k: u32) -> i128 {
+    debug_assert!(k <= 60 && n >> k == 1);
+    let (r, minus_log2_r) = LOG_TABLE[(n << (63 - k) << 1 >> 56) as usize];
+    // z = x r - 1 exactly, scale 71: at most 61 + 11 bits before the subtraction, less than 2^63 after it.
+    let z = (((u128::from(n) * u128::from(r)) << (60 - k)) as i128 - (1 << 71)) as i64;
+    minus_log2_r as i128 + log2_1p(z)
+}
+
+/// `log2(1 + z)`, scale 120, for `z` of scale 71, `|z| < 2^-8`.
+#[inline]
+fn log2_1p(z: i64) -> i128 {
+    let z_q = (i128::from(z) * i128::from(horner(&LOG_Q, z, 71))) >> 63;
+    let z = i128::from(z);
+    let (high, low) = ((INV_LN2 >> 64) as i128, INV_LN2 as u64 as i128);
+    (z * high + ((z * low) >> 64) + ((z * z_q) >> 8)) >> 14
+}
+
+/// `log2(1 + z) / z = 1 / ln 2 + z Q(z)`, scale 112, for `z = ±magnitude`, scale 71, `magnitude < 2^-8`;
+/// error below [`LOG_1P_OVER_ERROR`]. The derivative is below 0.73: what a cut of the argument costs.
+#[inline]
+pub(super) fn log2_1p_over(magnitude: u64, negative: bool) -> u128 {
+    let z = if negative { -(magnitude as i64) } else { magnitude as i64 };
+    let z_q = (i128::from(z) * i128::from(horner(&LOG_Q, z, 71))) >> 22;
+    ((INV_LN2 >> 15) as i128 + z_q) as u128
+}
+
+/// `e^-l = y 2^-k` with `1/2 < y <= 1` of scale 126, and `l / ln 2` of scale 116, for `l = m 2^e < 2^10`.
+///
+/// The errors: `y` below [`EXP_ERROR`]; `l / ln 2` below 4 units.
+#[inline]
+pub(super) fn exp2_neg(m: u64, e: i32) -> (u128, i32, u128) {
+    let shift = 117 + e;
+    let l = if shift >= 0 { u128::from(m) << shift } else { shift_right(u128::from(m), -shift) };
+    let t = mul_high(l, INV_LN2);
+    let fraction = t & ((1 << 116) - 1);
+    let i = (fraction >> 108) as usize;
+    let g = fraction & ((1 << 108) - 1);
+    let g_71 = (g >> 45) as i64;
+    let slope = LN2 - ((i128::from(g_71) * i128::from(horner(&EXP_R, g_71, 71))) >> 7) as u128;
+    let power = (1 << 127) - mul_high(g << 12, slope);
+    (mul_high(EXP_TABLE[i], power), (t >> 116) as i32, t)
+}
+
+/// `I = d^2 (1 / (2 ln 2) + d^2 V(d^2))` near `p = 1/2`, for `|2p - 1| = d 2^-e < 2^-4`, `d < 2^53`.
+///
+/// Returns `value` and `exponent`: `I = value * 2^exponent`, within `SERIES_ERROR + 1` units.
+#[inline]
+pub(super) fn information_series(d: u64, e: i32) -> (u128, i32) {
+    let shift = d.leading_zeros() as i32;
+    let square = u128::from(d << shift).pow(2);
+    let exponent = -2 * (shift + e);
+    let u = shift_right(square, -exponent - 71) as i64;
+    let series = HALF_INV_LN2 + ((i128::from(u) * i128::from(horner(&INFO_V, u, 71))) >> 10) as u128;
+    (mul_high(square, series), exponent + 1)
+}
+
+/// `I = l^2 (1 / (8 ln 2) - l^2 W(l^2))` for `l = m 2^e < 2^-3`, `2^52 <= m < 2^53`; the result as in
+/// [`information_series`].
+#[inline]
+pub(super) fn information_series_log_odds(m: u64, e: i32) -> (u128, i32) {
+    let square = u128::from(m << 11).pow(2);
+    let exponent = 2 * (e - 11);
+    let u = shift_right(square, -exponent - 69) as i64;
+    let series = EIGHTH_INV_LN2 - ((i128::from(u) * i128::from(horner(&INFO_W, u, 69))) >> 10) as u128;
+    (mul_high(square, series), exponent + 1)
+}
+
+/// `1 / w`, scale 126, for `w` in `[1, 2]` of scale 126; relative error below `2^-116`.
+#[inline]
+pub(super) fn reciprocal(w: u128) -> u128 {
+    // 62 good bits by one division, doubled by one step of Newton's iteration.
+    let first = (1_u128 << 126) / (w >> 64);
+    let residual = (1 << 125) - mul_high(w, first << 63) as i128;
+    let correction = ((first >> 8) as i128 * residual) >> 55;
+    ((first << 62) as i128 + correction) as u128
+}

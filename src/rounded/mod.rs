@@ -1,0 +1,95 @@
+//! Correct rounding of entropy, information and occupancy by Ziv's strategy, in integers.
+//!
+//! 1. [`enclose`] computes the value in 128-bit fixed point, with a proved bound on its error ([`fixed`]).
+//! 2. [`Enclosure::round`] rounds it, if the whole enclosure rounds to one float ([`enclosure`]).
+//! 3. If not, the enclosure holds one midpoint between two floats, and [`exact`] decides on which side of it the value
+//!    lies, in integers of 256 bits, then 512, and so on.
+//!
+//! Integers because they are exact where floating point rounds, the same on every platform, and easy to prove: every
+//! error is a discarded fraction. The proof is the chapter [`rounding`](crate::book::rounding); `proofs/` has it
+//! machine-checked.
+
+mod big;
+mod constants;
+mod enclose;
+mod enclosure;
+mod exact;
+mod fixed;
+
+pub(crate) use enclosure::round_limbs;
+
+use crate::real::Real;
+use enclosure::{Enclosure, Midpoint, Rounded};
+
+/// `H(p)` and `I(p)` for `p` in `[0, 1]`.
+pub(crate) fn entropy_and_information<T: Real>(p: T) -> (T, T) {
+    if p == T::HALF {
+        return (T::one(), T::zero());
+    }
+    if p.is_zero() || p == T::one() {
+        return (T::zero(), T::one());
+    }
+    let (m, e) = normalised(p);
+    let (entropy, information) = enclose::from_occupancy(m, e);
+    (
+        settle(entropy, |midpoint| exact::entropy(m, e, midpoint)),
+        settle(information, |midpoint| exact::information(m, e, midpoint)),
+    )
+}
+
+/// `H` and `I` at log-odds `l`, not NaN.
+pub(crate) fn entropy_and_information_from_log_odds<T: Real>(l: T) -> (T, T) {
+    if l.is_zero() {
+        return (T::one(), T::zero());
+    }
+    if beyond_exponential(l) {
+        return (T::zero(), T::one());
+    }
+    let (m, e) = normalised(l);
+    let (entropy, information) = enclose::from_log_odds(m, e);
+    (
+        settle(entropy, |midpoint| exact::entropy_from_log_odds(m, e, midpoint)),
+        settle(information, |midpoint| exact::information_from_log_odds(m, e, midpoint)),
+    )
+}
+
+/// `1 / (1 + e^-l)` for `l` not NaN.
+pub(crate) fn occupancy_from_log_odds<T: Real>(l: T) -> T {
+    let negative = l.is_sign_negative();
+    if l.is_zero() {
+        return T::HALF;
+    }
+    if beyond_exponential(l) {
+        return if negative { T::zero() } else { T::one() };
+    }
+    let (m, e) = normalised(l);
+    let value = enclose::occupancy(m, e, negative);
+    settle(value, |midpoint| exact::occupancy(m, e, negative, midpoint))
+}
+
+/// Whether `|l| >= 2^10`: then `e^-|l| < 2^-1477`, and `H` and `1 - p` are below half of the smallest subnormal.
+fn beyond_exponential<T: Real>(l: T) -> bool {
+    l.abs().widen() >= 1024.0
+}
+
+/// `|x| = m 2^e` with a significand in `[2^52, 2^53)`, for `x` finite and not 0.
+fn normalised<T: Real>(x: T) -> (u64, i32) {
+    let (m, e) = x.parts();
+    let shift = m.leading_zeros() as i32 - 11;
+    (m << shift, e - shift)
+}
+
+/// The value in the enclosure, rounded to nearest; `is_above` says whether it lies above a midpoint.
+#[inline]
+fn settle<T: Real>(value: Enclosure, is_above: impl FnOnce(Midpoint) -> bool) -> T {
+    match value.round() {
+        Rounded::Decided(x) => x,
+        Rounded::Between { below, above, midpoint } => {
+            if is_above(midpoint) {
+                above
+            } else {
+                below
+            }
+        }
+    }
+}

@@ -1,0 +1,119 @@
+//! An exact sum of non-negative floating-point numbers: a fixed-point integer wide enough for every `f64`
+//! (Kulisch's long accumulator, without sign).
+
+use crate::real::Real;
+use crate::rounded::round_limbs;
+
+/// Limbs of 64 bits. The lowest bit is worth `2^-1074`, so the sum can reach `2^(64 * 18 - 1074) = 2^78`.
+const LIMBS: usize = 18;
+/// The weight of the lowest bit, as an exponent of two: the smallest positive `f64`.
+const LOWEST: i32 = -1074;
+
+/// The exact sum of non-negative numbers in `f32` or `f64`, each at most 1.
+///
+/// Addition is exact, hence associative and commutative: any order and any tree of merges gives equal sums.
+/// Reading the sum, or its quotient by a count, rounds once, to nearest with ties to even.
+///
+/// ```
+/// use mean_information::ExactSum;
+/// let mut sum = ExactSum::new();
+/// sum.add(0.1_f64);
+/// sum.add_many(1e-17_f64, 1_000_000);
+/// assert_eq!(sum.value::<f64>(), 0.10000000001);
+/// assert_eq!(sum.mean::<f32>(4), 0.025);
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ExactSum {
+    pub(super) limbs: [u64; LIMBS],
+}
+
+impl Default for ExactSum {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl ExactSum {
+    /// The empty sum, 0.
+    pub const fn new() -> Self {
+        Self { limbs: [0; LIMBS] }
+    }
+
+    /// Adds `x`, a number in `[0, 1]`.
+    ///
+    /// # Panics
+    /// If `x` is NaN or outside `[0, 1]`.
+    #[inline]
+    pub fn add<T: Real>(&mut self, x: T) {
+        self.add_many(x, 1);
+    }
+
+    /// Adds `x` in `[0, 1]`, `count` times, in one step.
+    ///
+    /// # Panics
+    /// If `x` is NaN or outside `[0, 1]`. The sum of all counts must stay below `2^78`: 16384 times as many as `count`
+    /// can say.
+    #[inline]
+    pub fn add_many<T: Real>(&mut self, x: T, count: u64) {
+        assert!(x >= T::zero() && x <= T::one(), "an exact sum takes numbers in [0, 1], not {x}");
+        let (m, e) = x.parts();
+        let place = (e - LOWEST) as usize;
+        let (limb, bit) = (place / 64, place % 64);
+        // m < 2^53 and count < 2^64: the product has 117 bits, shifted by bit at most 180.
+        let product = u128::from(m) * u128::from(count);
+        let low = product << bit;
+        let high = if bit == 0 { 0 } else { (product >> (128 - bit)) as u64 };
+        self.carry_into(limb, [low as u64, (low >> 64) as u64, high]);
+    }
+
+    /// Adds the sum of another.
+    pub fn merge(&mut self, other: &Self) {
+        self.carry_into(0, other.limbs);
+    }
+
+    /// Adds the integer of the given limbs, the first of which stands at limb `at`.
+    #[inline]
+    fn carry_into<const N: usize>(&mut self, at: usize, addend: [u64; N]) {
+        let mut carry = false;
+        for (k, limb) in self.limbs[at..].iter_mut().enumerate() {
+            let more = addend.get(k).copied();
+            if more.is_none() && !carry {
+                return;
+            }
+            let (sum, first) = limb.overflowing_add(more.unwrap_or(0));
+            let (sum, second) = sum.overflowing_add(u64::from(carry));
+            *limb = sum;
+            carry = first | second;
+        }
+    }
+
+    /// Whether the sum is above the integer `n`.
+    #[cfg(feature = "serde")]
+    pub(super) fn exceeds(&self, n: u64) -> bool {
+        let mut bound = Self::new();
+        bound.add_many(1.0_f64, n);
+        self.limbs.iter().rev().gt(bound.limbs.iter().rev())
+    }
+
+    /// The sum, rounded once to nearest.
+    pub fn value<T: Real>(&self) -> T {
+        self.mean(1)
+    }
+
+    /// The sum over `count`, the exact quotient rounded once to nearest; 0 if `count` is 0.
+    pub fn mean<T: Real>(&self, count: u64) -> T {
+        if count == 0 {
+            return T::zero();
+        }
+        // One more limb below, so that the quotient keeps 64 bits under the smallest subnormal.
+        let mut quotient = [0; LIMBS + 1];
+        let mut remainder = 0_u128;
+        for k in (0..=LIMBS).rev() {
+            let digit = if k == 0 { 0 } else { self.limbs[k - 1] };
+            let dividend = remainder << 64 | u128::from(digit);
+            quotient[k] = (dividend / u128::from(count)) as u64;
+            remainder = dividend % u128::from(count);
+        }
+        round_limbs(&quotient, LOWEST - 64, remainder != 0)
+    }
+}

@@ -1,0 +1,160 @@
+//! The sums behind every measure of a map: Eq. 2, the entropy `H(m) = sum H`, Eq. 3, the information
+//! `I(m) = sum I`, and Eq. 4, the mean information `I(m) / N_obs`.
+//!
+//! The sums are exact ([`ExactSum`]), so a [`Tally`] does not depend on the order of the cells, nor on how they
+//! were split and merged.
+
+mod exact_sum;
+#[cfg(feature = "serde")]
+mod portable;
+
+pub use exact_sum::ExactSum;
+
+use crate::cell::{Cell, State};
+use crate::real::Real;
+use core::marker::PhantomData;
+
+/// The sums over the cells of a map: entropy, information, and how many cells are unknown, free and occupied.
+///
+/// A tally holds the exact sums of the correctly rounded values of its cells, and rounds once when asked.
+/// Adding cells in any order, or merging tallies of parts in any tree, gives the same bits.
+///
+/// ```
+/// use mean_information::{Tally, cell::Cell};
+/// let mut tally = Tally::<f64>::new();
+/// for p in [0.25, 0.5, 0.96875] {
+///     tally.add(Cell::from_occupancy(p)?);
+/// }
+/// assert_eq!((tally.observed(), tally.unknown()), (2, 1));
+/// assert_eq!(tally.mean_information(), 0.49404977561407626);
+/// # Ok::<(), mean_information::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Tally<T> {
+    entropy: ExactSum,
+    information: ExactSum,
+    unknown: u64,
+    free: u64,
+    occupied: u64,
+    format: PhantomData<T>,
+}
+
+impl<T: Real> Default for Tally<T> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<T: Real> Tally<T> {
+    /// The tally of no cells.
+    pub const fn new() -> Self {
+        Self {
+            entropy: ExactSum::new(),
+            information: ExactSum::new(),
+            unknown: 0,
+            free: 0,
+            occupied: 0,
+            format: PhantomData,
+        }
+    }
+
+    /// Counts one cell.
+    ///
+    /// # Panics
+    /// If the tally would hold more than `2^64 - 1` cells.
+    #[inline]
+    pub fn add(&mut self, cell: Cell<T>) {
+        self.add_many(cell, 1);
+    }
+
+    /// Counts `count` equal cells, with the same result as `count` calls of [`Tally::add`].
+    ///
+    /// # Panics
+    /// If the tally would hold more than `2^64 - 1` cells.
+    pub fn add_many(&mut self, cell: Cell<T>, count: u64) {
+        assert!(self.cells().checked_add(count).is_some(), "a tally holds at most 2^64 - 1 cells");
+        match cell.state() {
+            State::Unknown => self.unknown += count,
+            State::Free => self.free += count,
+            State::Occupied => self.occupied += count,
+        }
+        self.entropy.add_many(cell.entropy(), count);
+        self.information.add_many(cell.information(), count);
+    }
+
+    /// Counts the cells of another tally.
+    ///
+    /// # Panics
+    /// If the tally would hold more than `2^64 - 1` cells.
+    pub fn merge(&mut self, other: &Self) {
+        assert!(self.cells().checked_add(other.cells()).is_some(), "a tally holds at most 2^64 - 1 cells");
+        self.entropy.merge(&other.entropy);
+        self.information.merge(&other.information);
+        self.unknown += other.unknown;
+        self.free += other.free;
+        self.occupied += other.occupied;
+    }
+
+    /// `H(m)`, Eq. 2: the entropy of all cells, unknown ones at 1 bit each, in bits.
+    ///
+    /// The exact sum of the correctly rounded entropies of the cells, rounded once to nearest.
+    pub fn entropy(&self) -> T {
+        self.entropy.value()
+    }
+
+    /// `I(m)`, Eq. 3: the information of all cells, in bits. Unknown cells add nothing.
+    ///
+    /// The exact sum of the correctly rounded information of the cells, rounded once to nearest.
+    pub fn information(&self) -> T {
+        self.information.value()
+    }
+
+    /// `I(m) / N_obs`, Eq. 4: the mean information of the observed cells, in bits per cell, in `[0, 1]`.
+    ///
+    /// The exact sum of the correctly rounded information of the cells over the count, rounded once to nearest.
+    /// With nothing observed it is 0 by the paper's convention (property 1 of section I).
+    pub fn mean_information(&self) -> T {
+        self.information.mean(self.observed())
+    }
+
+    /// `N_obs`, Eq. 4: the number of cells with `p != 1/2`.
+    pub fn observed(&self) -> u64 {
+        self.free + self.occupied
+    }
+
+    /// The number of cells with `p = 1/2`.
+    pub fn unknown(&self) -> u64 {
+        self.unknown
+    }
+
+    /// The number of observed cells with `p < 1/2`.
+    pub fn free(&self) -> u64 {
+        self.free
+    }
+
+    /// The number of observed cells with `p > 1/2`.
+    pub fn occupied(&self) -> u64 {
+        self.occupied
+    }
+
+    /// The number of all cells.
+    pub fn cells(&self) -> u64 {
+        self.unknown + self.free + self.occupied
+    }
+}
+
+impl<T: Real> Extend<Cell<T>> for Tally<T> {
+    fn extend<I: IntoIterator<Item = Cell<T>>>(&mut self, cells: I) {
+        for cell in cells {
+            self.add(cell);
+        }
+    }
+}
+
+impl<T: Real> FromIterator<Cell<T>> for Tally<T> {
+    fn from_iter<I: IntoIterator<Item = Cell<T>>>(cells: I) -> Self {
+        let mut tally = Self::new();
+        tally.extend(cells);
+        tally
+    }
+}

@@ -1,0 +1,58 @@
+//! The one table of tolerances, and that `docs/guarantees.md` says the same.
+
+use mean_information::{Tally, cell, map};
+
+/// How a bound is known.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Known {
+    Proved,
+}
+
+/// What a function promises.
+pub(crate) struct Guarantee {
+    pub(crate) function: &'static str,
+    pub(crate) ulps: f64,
+    pub(crate) known: Known,
+}
+
+/// The item, so that a renamed or removed function does not compile, and its row.
+macro_rules! guarantees {
+    ($($item:expr => $function:literal, $ulps:literal, $known:ident;)*) => {{
+        $(let _ = $item;)*
+        [$(Guarantee { function: $function, ulps: $ulps, known: Known::$known }),*]
+    }};
+}
+
+/// Every function with a bound on its error.
+pub(crate) fn guarantees() -> [Guarantee; 9] {
+    guarantees! {
+        cell::entropy::<f64> => "cell::entropy", 0.5, Proved;
+        cell::information::<f64> => "cell::information", 0.5, Proved;
+        cell::entropy_from_log_odds::<f64> => "cell::entropy_from_log_odds", 0.5, Proved;
+        cell::information_from_log_odds::<f64> => "cell::information_from_log_odds", 0.5, Proved;
+        cell::occupancy_from_log_odds::<f64> => "cell::occupancy_from_log_odds", 0.5, Proved;
+        Tally::<f64>::entropy => "Tally::entropy", 0.5, Proved;
+        Tally::<f64>::information => "Tally::information", 0.5, Proved;
+        Tally::<f64>::mean_information => "Tally::mean_information", 0.5, Proved;
+        map::Grid::<map::encoding::Percent>::pooled => "Grid::pooled", 0.5, Proved;
+    }
+}
+
+#[test]
+fn the_page_says_what_the_table_says() {
+    let page = include_str!("../../docs/guarantees.md");
+    let (_, table) = page.split_once("<!-- table -->").expect("the page marks its table");
+    let (table, _) = table.split_once("<!-- end -->").expect("the page marks the end of its table");
+    let rows: Vec<Vec<&str>> = table
+        .lines()
+        .filter(|line| line.starts_with("| `"))
+        .map(|line| line.trim_matches('|').split('|').map(str::trim).collect())
+        .collect();
+    let guarantees = guarantees();
+    assert_eq!(rows.len(), guarantees.len());
+    for (row, guarantee) in rows.iter().zip(&guarantees) {
+        assert_eq!(row[0], format!("`{}`", guarantee.function));
+        assert_eq!(row[2], format!("{} ulp", guarantee.ulps));
+        assert_eq!(row[3], format!("{:?}", guarantee.known).to_lowercase());
+    }
+}

@@ -1,0 +1,128 @@
+//! Grids, encodings and pooling.
+
+use super::common::occupancy;
+use mean_information::Error;
+use mean_information::cell::information;
+use mean_information::map::encoding::{LogOdds, MrptLogOdds, Percent, Probability};
+use mean_information::map::{Encoding, Geometry, Grid};
+use proptest::collection::vec;
+use proptest::prelude::*;
+
+fn geometry() -> Geometry {
+    Geometry::new(0.05, [-3.0, 7.0]).unwrap()
+}
+
+/// A map of up to 24 x 24 cells.
+fn map() -> impl Strategy<Value = Grid<Probability<f64>>> {
+    (2_usize..24, 2_usize..24).prop_flat_map(|(width, height)| {
+        vec(occupancy(), width * height)
+            .prop_map(move |cells| Grid::new(width, height, geometry(), cells).expect("a valid map"))
+    })
+}
+
+proptest! {
+    /// Jensen: a pooled cell informs at most as much as the mean of what it pools. The bound allows for one rounding of the mean
+    /// (`|dI| <= p |log2 p| 2^-53 <= 2^-53`) and one of each `I`.
+    #[test]
+    fn pooling_never_raises_information_per_area(map in map(), k in 2_usize..9) {
+        let pooled = map.pooled(k)?;
+        for row in 0..pooled.height() {
+            for column in 0..pooled.width() {
+                let rows = (row * k..((row + 1) * k).min(map.height())).collect::<Vec<_>>();
+                let columns = column * k..((column + 1) * k).min(map.width());
+                let block: Vec<f64> = rows
+                    .iter()
+                    .flat_map(|&r| map.row(r).unwrap()[columns.clone()].iter().copied())
+                    .collect();
+                let mean_of_information = block.iter().map(|&p| information(p)).sum::<f64>() / block.len() as f64;
+                let p = pooled.occupancy(row, column).unwrap();
+                prop_assert!(information(p) <= mean_of_information * (1.0 + 1e-13) + 2.0 * f64::EPSILON);
+                if block.iter().all(|&p| p == 0.5) {
+                    prop_assert_eq!(p, 0.5);
+                }
+                let mean = block.iter().sum::<f64>() / block.len() as f64;
+                prop_assert!((p - mean).abs() <= 1e-13);
+            }
+        }
+    }
+
+    #[test]
+    fn pooling_by_one_keeps_the_map(map in map()) {
+        prop_assert_eq!(map.pooled(1)?, map);
+    }
+
+    #[test]
+    fn pooling_commutes_with_mirroring_where_blocks_are_full(
+        (k, columns, cells) in (2_usize..5, 2_usize..6)
+            .prop_flat_map(|(k, columns)| (Just(k), Just(columns), vec(occupancy(), k * columns * k * 3))),
+    ) {
+        let width = k * columns;
+        let mirrored: Vec<f64> = cells.chunks(width).flat_map(|row| row.iter().rev().copied()).collect();
+        let pool = |cells| Grid::<Probability<f64>>::new(width, 3 * k, geometry(), cells)?.pooled(k);
+        let (straight, mirrored) = (pool(cells)?, pool(mirrored)?);
+        for row in 0..3 {
+            let reversed: Vec<f64> = mirrored.row(row).unwrap().iter().rev().copied().collect();
+            prop_assert_eq!(straight.row(row).unwrap(), &reversed[..]);
+        }
+        prop_assert_eq!(straight.tally(), mirrored.tally());
+    }
+
+    #[test]
+    fn bytes_tallied_by_value_and_one_by_one_agree(cells in vec(-1_i8..=100, 1..300)) {
+        let one_by_one = cells.iter().filter_map(|&stored| Percent::cell(stored)).collect();
+        prop_assert_eq!(Percent::tally(&cells), one_by_one);
+    }
+
+    #[test]
+    fn every_byte_of_mrpt_agrees_with_its_log_odds(stored in any::<i8>()) {
+        let l = -f64::from(stored.max(-127)) / 16.0;
+        prop_assert_eq!(MrptLogOdds::cell(stored), LogOdds::<f64>::cell(l));
+        prop_assert_eq!(MrptLogOdds::occupancy(stored), LogOdds::<f64>::occupancy(l));
+        prop_assert_eq!(MrptLogOdds::occupancy(stored).unwrap() < 0.5, stored > 0, "positive is free");
+    }
+}
+
+#[test]
+fn the_first_bad_cell_is_named() {
+    let refused = Grid::<Percent>::new(3, 2, geometry(), vec![0, 50, 100, -1, 101, -2]).unwrap_err();
+    assert_eq!(
+        refused.to_string(),
+        "cell at row 1, column 1 is 101, allowed is a percentage from 0 to 100, or -1 for unknown"
+    );
+    let refused = Grid::<Probability<f32>>::new(2, 2, geometry(), vec![0.5, 0.5, 0.5, f32::NAN]).unwrap_err();
+    assert!(matches!(refused, Error::Cell { row: 1, column: 1, value, .. } if value.is_nan()));
+    assert!(Grid::<LogOdds<f64>>::new(1, 2, geometry(), vec![f64::NEG_INFINITY, f64::NAN]).is_err());
+}
+
+#[test]
+fn the_number_of_cells_must_be_width_times_height() {
+    let refused = Grid::<Percent>::new(3, 2, geometry(), vec![0; 7]).unwrap_err();
+    assert_eq!(refused.to_string(), "7 cells were given for a map of 3 columns and 2 rows");
+    assert!(Grid::<Percent>::new(usize::MAX, 2, geometry(), vec![0; 7]).is_err(), "no overflow");
+    let empty = Grid::<Percent>::new(0, 5, geometry(), vec![]).unwrap();
+    assert_eq!((empty.tally().cells(), empty.row(0), empty.row(5)), (0, Some(&[][..]), None));
+    assert_eq!(empty.pooled(2).unwrap().cells(), []);
+}
+
+#[test]
+fn a_geometry_is_refused_with_its_reason() {
+    let refused = |resolution, origin| Geometry::new(resolution, origin).unwrap_err().to_string();
+    assert_eq!(refused(0.0, [0.0; 2]), "resolution is 0, allowed is positive and finite, in metres");
+    assert!(Geometry::new(f64::NAN, [0.0; 2]).is_err() && Geometry::new(f64::INFINITY, [0.0; 2]).is_err());
+    assert_eq!(refused(0.05, [0.0, f64::INFINITY]), "origin is inf, allowed is finite, in metres");
+    assert!(geometry().with_yaw(f64::NAN).is_err());
+}
+
+#[test]
+fn pooling_states_its_limits() {
+    let map = Grid::<Percent>::new(5, 3, geometry(), vec![20; 15]).unwrap();
+    assert!(map.pooled(0).is_err());
+    let one = map.pooled(usize::MAX).unwrap();
+    assert_eq!((one.width(), one.height(), one.cells()), (1, 1, &[0.2][..]));
+    let coarse = map.pooled(2).unwrap();
+    assert_eq!((coarse.width(), coarse.height()), (3, 2));
+    assert_eq!(coarse.geometry().resolution(), 0.1);
+    assert_eq!(coarse.geometry().origin(), [-3.0, 7.0]);
+    let huge = Grid::<Percent>::new(1, 1, Geometry::new(1e300, [0.0; 2]).unwrap(), vec![7]).unwrap();
+    assert!(huge.pooled(usize::MAX).is_err(), "the coarse resolution is not finite");
+}

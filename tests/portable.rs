@@ -1,0 +1,54 @@
+//! Tallies that travel as text (feature `serde`).
+
+use mean_information::{Tally, cell::Cell};
+use proptest::collection::vec;
+use proptest::prelude::*;
+
+fn tally(occupancies: &[f64]) -> Tally<f64> {
+    occupancies.iter().map(|&p| Cell::from_occupancy(p).expect("in [0, 1]")).collect()
+}
+
+proptest! {
+    #[test]
+    fn a_tally_survives_the_journey_and_merges_there(
+        here in vec(0.0..=1.0, 0..50),
+        there in vec((0_u64..=1.0_f64.to_bits()).prop_map(f64::from_bits), 0..50),
+    ) {
+        let text = serde_json::to_string(&tally(&here)).unwrap();
+        let mut arrived: Tally<f64> = serde_json::from_str(&text).unwrap();
+        prop_assert_eq!(&arrived, &tally(&here));
+        arrived.merge(&tally(&there));
+        prop_assert_eq!(arrived, tally(&[here, there].concat()));
+    }
+}
+
+/// The text is a contract: other machines read it.
+#[test]
+fn the_text_is_readable_anywhere() {
+    let one = format!("4{}", "0".repeat(268)); // 2^1074 units of 2^-1074
+    let expected = format!(
+        r#"{{"format":"f64","entropy":"{one}","information":"{one}","unknown":1,"free":1,"occupied":0}}"#
+    );
+    assert_eq!(serde_json::to_string(&tally(&[0.5, 0.0])).unwrap(), expected);
+    let empty = r#"{"format":"f32","entropy":"0","information":"0","unknown":0,"free":0,"occupied":0}"#;
+    assert_eq!(serde_json::from_str::<Tally<f32>>(empty).unwrap(), Tally::new());
+}
+
+#[test]
+fn a_tally_that_cannot_be_is_refused() {
+    let good = serde_json::to_value(tally(&[0.25, 0.5, 1.0])).unwrap();
+    let refused = |key: &str, value: serde_json::Value| {
+        let mut bad = good.clone();
+        bad[key] = value;
+        serde_json::from_value::<Tally<f64>>(bad).unwrap_err().to_string()
+    };
+    assert!(serde_json::from_value::<Tally<f64>>(good.clone()).is_ok());
+    assert_eq!(refused("format", "f32".into()), "a tally of f32 cells, wanted is f64");
+    assert_eq!(refused("free", 0.into()), "the sums of a tally are at most 1 bit per cell");
+    assert_eq!(refused("free", u64::MAX.into()), "a tally holds at most 2^64 - 1 cells");
+    assert!(refused("entropy", "f".repeat(288).into()).contains("at most 1 bit per cell"));
+    assert!(refused("entropy", "f".repeat(289).into()).starts_with("a sum is 1 to 288 hexadecimal digits"));
+    assert!(refused("information", "0x1".into()).contains("not \"0x1\""));
+    assert!(refused("information", "".into()).contains("hexadecimal digits"));
+    assert!(refused("mean", 1.into()).contains("unknown field"));
+}

@@ -1,0 +1,135 @@
+//! `meaninfo map`: the measures of maps, and a picture of where the information is.
+
+use super::Status;
+use crate::arguments::{Reading, Writing};
+use crate::failure::Failure;
+use crate::maps::Map;
+use crate::measures::Measures;
+use crate::output::{Files, Number, Record, Report, Value, short, table, with_notes};
+use crate::plots::{self, HeatMap};
+use clap::Args;
+use std::path::PathBuf;
+
+/// The arguments of `meaninfo map`.
+#[derive(Args, Debug)]
+pub struct Arguments {
+    /// Maps: ROS .yaml (with its .pgm or .png), .npy, MRPT .gridmap or .gridmap.gz.
+    #[arg(value_name = "FILE", required = true)]
+    maps: Vec<PathBuf>,
+    /// Draw the information of every cell of the one map given to this PNG file.
+    #[arg(long, value_name = "FILE.png")]
+    heat_map: Option<PathBuf>,
+    #[command(flatten)]
+    reading: Reading,
+    #[command(flatten)]
+    writing: Writing,
+}
+
+impl Arguments {
+    pub(super) fn run(&self) -> Result<Status, Failure> {
+        if let Some(path) = &self.heat_map {
+            plots::require_png(path)?;
+            if self.maps.len() > 1 {
+                return Err(Failure::Usage(format!(
+                    "--heat-map draws one map, but {} were given",
+                    self.maps.len()
+                )));
+            }
+        }
+        let mut files = Files::new();
+        let mut measured = Vec::with_capacity(self.maps.len());
+        for path in &self.maps {
+            let map = self.reading.read(path)?;
+            let row = MeasuredMap::new(path.display().to_string(), &map);
+            if let Some(picture) = &self.heat_map {
+                let titles = [plots::title(path), row.measures.summary()];
+                files.add(picture, HeatMap::new(&map).to_png(&titles)?);
+            }
+            files.read(map.files);
+            measured.push(row);
+        }
+        self.writing.write(&MeasuredMaps(measured), files)?;
+        Ok(Status::Done)
+    }
+}
+
+/// One row of the result.
+struct MeasuredMap {
+    name: String,
+    resolution: Option<f64>,
+    observed_area: Option<f64>,
+    measures: Measures,
+    warnings: Vec<String>,
+}
+
+impl MeasuredMap {
+    fn new(name: String, map: &Map) -> Self {
+        let measures = Measures::of(&map.cells);
+        let mut warnings = map.warnings.clone();
+        warnings.extend(measures.doubt.map(|doubt| doubt.warning().to_owned()));
+        let area = map.resolution.map(|side| measures.observed() as f64 * (side * side));
+        let observed_area = area.filter(|area| area.is_finite());
+        Self { name, resolution: map.resolution, observed_area, measures, warnings }
+    }
+
+    fn record(&self) -> Record {
+        let m = &self.measures;
+        Record(vec![
+            ("map", Value::Text(self.name.clone())),
+            ("width", Value::Count(m.width as u64)),
+            ("height", Value::Count(m.height as u64)),
+            ("resolution_m", Value::Given(self.resolution)),
+            ("mean_information", Value::Computed(m.mean_information)),
+            ("information_bits", Value::Computed(Some(m.information))),
+            ("entropy_bits", Value::Computed(Some(m.entropy))),
+            ("observed", Value::Count(m.observed())),
+            ("unknown", Value::Count(m.unknown)),
+            ("free", Value::Count(m.free)),
+            ("occupied", Value::Count(m.occupied)),
+            ("observed_area_m2", Value::Computed(self.observed_area.map(Number::Double))),
+            ("meaningful", Value::Flag(m.doubt.is_none())),
+            ("warnings", Value::Texts(self.warnings.clone())),
+        ])
+    }
+
+    fn cells(&self) -> [String; 8] {
+        let m = &self.measures;
+        let number = m.mean_information.map_or("none".to_owned(), |x| x.to_string());
+        let area = self.observed_area.map(|area| format!("\n{} m²", short(area)));
+        let side = self.resolution.map(|side| format!("\nof {side:?} m"));
+        [
+            self.name.clone(),
+            format!("{} × {}{}", m.width, m.height, side.unwrap_or_default()),
+            number
+                + &m.doubt.map(|doubt| format!("\nnot meaningful:\n{}", doubt.reason())).unwrap_or_default(),
+            format!("{:.3}", m.information.widen()),
+            format!("{:.3}", m.entropy.widen()),
+            format!("{}{}", m.observed(), area.unwrap_or_default()),
+            format!("{} / {}", m.free, m.occupied),
+            m.unknown.to_string(),
+        ]
+    }
+}
+
+struct MeasuredMaps(Vec<MeasuredMap>);
+
+impl Report for MeasuredMaps {
+    fn table(&self) -> String {
+        let header = [
+            "map",
+            "cells",
+            "mean information\n(bits / observed cell)",
+            "information\n(bits)",
+            "entropy\n(bits)",
+            "observed",
+            "free / occupied",
+            "unknown",
+        ];
+        let notes = self.0.iter().flat_map(|map| map.warnings.iter().map(|note| (&*map.name, &**note)));
+        with_notes(table(header, self.0.iter().map(MeasuredMap::cells)), notes)
+    }
+
+    fn rows(&self) -> Vec<Record> {
+        self.0.iter().map(MeasuredMap::record).collect()
+    }
+}

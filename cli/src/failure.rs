@@ -1,0 +1,47 @@
+//! Why a command did not do what it was asked: one line for stderr, and exit status 2.
+
+use crate::maps::{Problem, one_line};
+use std::fmt;
+
+/// A refused input or request. Its text is one line and says what to do.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Failure {
+    /// The arguments make no sense.
+    Usage(String),
+    /// A file cannot be read, or cannot be written.
+    File(Problem),
+    /// Standard output cannot be written, for another reason than a reader who closed it.
+    StandardOutput(String),
+    /// A picture cannot be drawn.
+    Drawing(String),
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Usage(message) => write!(f, "{}; try 'meaninfo --help'", one_line(message)),
+            Self::File(problem) => problem.fmt(f),
+            Self::StandardOutput(message) => write!(f, "standard output: {}", one_line(message)),
+            Self::Drawing(message) => write!(f, "the picture cannot be drawn: {}", one_line(message)),
+        }
+    }
+}
+
+impl std::error::Error for Failure {}
+
+impl From<Problem> for Failure {
+    fn from(problem: Problem) -> Self {
+        Self::File(problem)
+    }
+}
+
+impl From<clap::Error> for Failure {
+    /// The first paragraphs of clap's message, in one line, without its usage and its advice to ask for help.
+    fn from(error: clap::Error) -> Self {
+        let rendered = error.to_string();
+        let lines =
+            rendered.lines().take_while(|line| !line.starts_with("Usage:") && !line.starts_with("For more"));
+        let message = lines.map(str::trim).filter(|line| !line.is_empty()).collect::<Vec<_>>().join(" ");
+        Self::Usage(message.trim_start_matches("error: ").to_owned())
+    }
+}

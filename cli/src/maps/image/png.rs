@@ -1,0 +1,155 @@
+//! PNG by the `png` crate, row by row: memory grows with the pixels the file really holds.
+//!
+//! An interlaced image must be held whole before its first row is known, so only small ones are read.
+
+use super::{Channels, Colours, Layout};
+use crate::maps::Fault;
+use crate::maps::size::Size;
+use png::{BitDepth, ColorType, Decoder, DecodingError, Info, Limits, Reader, Transformations};
+use std::io::{BufRead, ErrorKind, Seek};
+
+/// The most memory for one row and for the chunks beside the pixels.
+const ROW_BYTES: usize = 16 << 20;
+/// The most memory for an interlaced image.
+const INTERLACED_BYTES: usize = 64 << 20;
+
+/// A PNG whose header was read.
+pub(crate) struct Png<R: BufRead + Seek> {
+    reader: Reader<R>,
+    layout: Layout,
+    /// The bits of a palette index, if the indices themselves are wanted.
+    index_bits: Option<u8>,
+}
+
+impl<R: BufRead + Seek> Png<R> {
+    pub(super) fn open(mut input: R, colours: Colours, max_cells: u64) -> Result<Self, Fault> {
+        // What is to be done with the colours depends on chunks that follow the header: read them twice.
+        let mut decoder = decoder_of(&mut input);
+        let header = decoder.read_header_info().map_err(fault)?;
+        let size = Size::within(header.width.into(), header.height.into(), max_cells)?;
+        let reader = decoder.read_info().map_err(fault)?;
+        let info = reader.info();
+        if info.is_animated() {
+            return Err(Fault::new("is an animated PNG; allowed is a still image"));
+        }
+        if info.color_type == ColorType::Indexed && info.palette.is_none() {
+            return Err(Fault::new("is a malformed PNG: its palette is missing"));
+        }
+        let transformations = match colours {
+            Colours::Meant => Transformations::EXPAND,
+            Colours::MeantIn8Bits => Transformations::EXPAND | Transformations::STRIP_16,
+            Colours::Sdl => as_sdl(info),
+        };
+        let index_bits = (info.color_type == ColorType::Indexed
+            && transformations == Transformations::IDENTITY)
+            .then_some(info.bit_depth as u8);
+        let keyed = info.color_type == ColorType::Grayscale;
+        let depth = info.bit_depth as u8;
+        let few_greys = (keyed && depth < 8).then(|| (1 << depth) - 1);
+        drop(reader);
+
+        input.rewind()?;
+        let mut decoder = decoder_of(input);
+        decoder.set_transformations(transformations);
+        let reader = decoder.read_info().map_err(fault)?;
+        let (color, depth) = reader.output_color_type();
+        let channels = match color {
+            ColorType::Grayscale | ColorType::Indexed => Channels::Grey,
+            ColorType::GrayscaleAlpha if keyed => Channels::GreyKeyed,
+            ColorType::GrayscaleAlpha => Channels::GreyAlpha,
+            ColorType::Rgb => Channels::Rgb,
+            ColorType::Rgba => Channels::Rgba,
+        };
+        let max = if depth as u8 == 16 { 65535 } else { 255 };
+        let white = few_greys.unwrap_or(max);
+        Ok(Self { reader, layout: Layout { size, channels, max, white }, index_bits })
+    }
+
+    pub(super) fn layout(&self) -> Layout {
+        self.layout
+    }
+
+    /// Whether the grey levels are the indices of a palette.
+    pub(crate) fn is_indices(&self) -> bool {
+        self.index_bits.is_some()
+    }
+
+    /// Whether samples of 16 bits are cut to their high byte.
+    pub(crate) fn is_cut(&self) -> bool {
+        self.layout.max == 255 && self.reader.info().bit_depth == BitDepth::Sixteen
+    }
+
+    pub(super) fn pixels(mut self, mut each: impl FnMut(&[u8]) -> Result<(), Fault>) -> Result<(), Fault> {
+        let Size { width, height } = self.layout.size;
+        let mut indices = Vec::new();
+        let mut row_of = |row: &[u8]| match self.index_bits {
+            None => each(row),
+            Some(bits) => {
+                unpack(row, bits, width, &mut indices);
+                each(&indices)
+            }
+        };
+        if self.reader.info().interlaced {
+            let bytes = self.reader.output_buffer_size().filter(|&bytes| bytes <= INTERLACED_BYTES);
+            let Some(bytes) = bytes else {
+                return Err(Fault::new(format!(
+                    "is an interlaced PNG of {width} x {height} pixels; these are read up to {} MiB: \
+                     save it without interlacing",
+                    INTERLACED_BYTES >> 20
+                )));
+            };
+            let mut image = vec![0; bytes];
+            self.reader.next_frame(&mut image).map_err(fault)?;
+            image.chunks_exact(bytes / height).try_for_each(&mut row_of)?;
+        } else {
+            while let Some(row) = self.reader.next_row().map_err(fault)? {
+                row_of(row.data())?;
+            }
+        }
+        self.reader.finish().map_err(fault)
+    }
+}
+
+fn decoder_of<R: BufRead + Seek>(input: R) -> Decoder<R> {
+    let mut decoder = Decoder::new_with_limits(input, Limits { bytes: ROW_BYTES });
+    decoder.set_ignore_text_chunk(true);
+    decoder.set_ignore_iccp_chunk(true);
+    decoder
+}
+
+/// What SDL_image asks of libpng. It expands greys, strips 16 bits to their high byte, and looks a palette up only if
+/// it has other alpha than one fully transparent entry; one transparent colour of an RGB image becomes no alpha.
+fn as_sdl(info: &Info<'_>) -> Transformations {
+    match info.color_type {
+        ColorType::Grayscale => Transformations::EXPAND | Transformations::STRIP_16,
+        ColorType::Indexed => {
+            let alpha = info.trns.as_deref().unwrap_or_default();
+            let second_hole = alpha.iter().filter(|&&a| a == 0).nth(1);
+            let plain = second_hole.is_none() && alpha.iter().all(|&a| a == 0 || a == 255);
+            if plain { Transformations::IDENTITY } else { Transformations::EXPAND }
+        }
+        _ => Transformations::STRIP_16,
+    }
+}
+
+/// Writes the `width` indices of `bits` bits each, the leftmost in the high bits of a byte.
+fn unpack(row: &[u8], bits: u8, width: usize, indices: &mut Vec<u8>) {
+    indices.clear();
+    let per_byte = usize::from(8 / bits);
+    let mask = u8::MAX >> (8 - bits);
+    indices.extend((0..width).map(|x| {
+        let shift = 8 - bits * (x % per_byte + 1) as u8;
+        row[x / per_byte] >> shift & mask
+    }));
+}
+
+fn fault(error: DecodingError) -> Fault {
+    match error {
+        DecodingError::IoError(error) if error.kind() == ErrorKind::UnexpectedEof => Fault::from(error),
+        DecodingError::LimitsExceeded => Fault::new(format!(
+            "a row or chunk of the PNG takes more than the {} MiB allowed",
+            ROW_BYTES >> 20
+        )),
+        error => Fault::new(format!("is a malformed PNG: {error}")),
+    }
+}

@@ -1,0 +1,280 @@
+//! The header of an `.npy` file: a Python dictionary of three keys, versions 1 to 3.
+//!
+//! Own code: the libraries for it parse any Python literal, recursively, and take the memory a header claims.
+
+use crate::maps::Fault;
+use std::io::Read;
+
+/// The most bytes of a header; numpy itself reads headers up to 10 000.
+const MOST_BYTES: u32 = 64 << 10;
+
+/// The elements that maps are stored in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Element {
+    Float32,
+    Float64,
+    Int8,
+}
+
+impl Element {
+    pub(super) fn bytes(self) -> usize {
+        match self {
+            Self::Int8 => 1,
+            Self::Float32 => 4,
+            Self::Float64 => 8,
+        }
+    }
+
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Int8 => "int8",
+            Self::Float32 => "float32",
+            Self::Float64 => "float64",
+        }
+    }
+}
+
+/// What a header says.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Header {
+    pub element: Element,
+    pub big_endian: bool,
+    pub fortran_order: bool,
+    /// Rows and columns.
+    pub shape: [u64; 2],
+    /// The bytes before the data.
+    pub length: u64,
+}
+
+impl Header {
+    pub(super) fn read(mut input: impl Read) -> Result<Self, Fault> {
+        let mut start = Vec::new();
+        input.by_ref().take(8).read_to_end(&mut start)?;
+        let [0x93, b'N', b'U', b'M', b'P', b'Y', major, _] = start[..] else {
+            return Err(Fault::new("is no .npy file: it does not start with \\x93NUMPY"));
+        };
+        let (length, prefix) = match major {
+            1 => {
+                let mut bytes = [0; 2];
+                input.read_exact(&mut bytes)?;
+                (u32::from(u16::from_le_bytes(bytes)), 10)
+            }
+            2 | 3 => {
+                let mut bytes = [0; 4];
+                input.read_exact(&mut bytes)?;
+                (u32::from_le_bytes(bytes), 12)
+            }
+            _ => return Err(Fault::new(format!("is an .npy file of version {major}, allowed is 1 to 3"))),
+        };
+        if length > MOST_BYTES {
+            return Err(Fault::new(format!(
+                "claims a header of {length} bytes, allowed is up to {MOST_BYTES}"
+            )));
+        }
+        let mut text = vec![0; length as usize];
+        input.read_exact(&mut text)?;
+        let text = std::str::from_utf8(&text).map_err(|_| malformed("text in UTF-8"))?;
+        Self::parse(text, u64::from(length) + prefix)
+    }
+
+    fn parse(text: &str, length: u64) -> Result<Self, Fault> {
+        let mut rest = Rest(text);
+        let (mut descr, mut fortran_order, mut shape) = (None, None, None);
+        rest.expect("{")?;
+        while !rest.eat("}") {
+            let key = rest.string()?;
+            rest.expect(":")?;
+            let repeated = match key {
+                "descr" => descr.replace(rest.descr()?).is_some(),
+                "fortran_order" => fortran_order.replace(rest.boolean()?).is_some(),
+                "shape" => shape.replace(rest.shape()?).is_some(),
+                _ => return Err(malformed("the keys descr, fortran_order and shape")),
+            };
+            if repeated {
+                return Err(malformed("each key once"));
+            }
+            if !rest.eat(",") {
+                rest.expect("}")?;
+                break;
+            }
+        }
+        if !rest.0.trim().is_empty() {
+            return Err(malformed("nothing after the dictionary"));
+        }
+        let (Some(descr), Some(fortran_order), Some(shape)) = (descr, fortran_order, shape) else {
+            return Err(malformed("the keys descr, fortran_order and shape"));
+        };
+        let (element, big_endian) = element(descr)?;
+        let [rows, columns] = shape[..] else {
+            return Err(Fault::new(format!(
+                "holds an array of {} dimensions, {shape:?}; allowed are 2, rows and columns",
+                shape.len()
+            )));
+        };
+        Ok(Self { element, big_endian, fortran_order, shape: [rows, columns], length })
+    }
+}
+
+fn malformed(allowed: &str) -> Fault {
+    Fault::new(format!("has a malformed .npy header; allowed is {allowed}"))
+}
+
+/// The element of a type string, and whether its bytes run from the high one.
+fn element(descr: &str) -> Result<(Element, bool), Fault> {
+    let found = match descr {
+        "<f4" | ">f4" => Element::Float32,
+        "<f8" | ">f8" => Element::Float64,
+        "|i1" | "<i1" | ">i1" => Element::Int8,
+        _ => {
+            let what = match descr.trim_start_matches(['<', '>', '|', '=']).chars().next() {
+                Some('O') => "Python objects",
+                Some('c') => "complex numbers",
+                Some('V') => "records",
+                Some('i' | 'u') => "integers other than int8",
+                Some('f') => "floats other than float32 and float64",
+                _ => "no numbers",
+            };
+            return Err(Fault::new(format!(
+                "holds {what} ({descr:?}); allowed are float32 (f4), float64 (f8) and int8 (i1)"
+            )));
+        }
+    };
+    Ok((found, descr.starts_with('>')))
+}
+
+/// The part of a header that is yet to be read.
+struct Rest<'a>(&'a str);
+
+impl<'a> Rest<'a> {
+    fn eat(&mut self, token: &str) -> bool {
+        let rest = self.0.trim_start().strip_prefix(token);
+        self.0 = rest.unwrap_or(self.0);
+        rest.is_some()
+    }
+
+    fn expect(&mut self, token: &str) -> Result<(), Fault> {
+        if self.eat(token) {
+            Ok(())
+        } else {
+            Err(malformed(&format!("{token:?} before {:?}", self.glance())))
+        }
+    }
+
+    /// The next few characters, for messages.
+    fn glance(&self) -> String {
+        self.0.trim().chars().take(20).collect()
+    }
+
+    fn string(&mut self) -> Result<&'a str, Fault> {
+        for quote in ["'", "\""] {
+            if self.eat(quote) {
+                let (string, rest) = self.0.split_once(quote).ok_or_else(|| malformed("a closing quote"))?;
+                self.0 = rest;
+                return Ok(string);
+            }
+        }
+        Err(malformed(&format!("a string before {:?}", self.glance())))
+    }
+
+    fn descr(&mut self) -> Result<&'a str, Fault> {
+        if self.0.trim_start().starts_with('[') {
+            return Err(Fault::new(
+                "holds a structured array; allowed are plain arrays of float32, float64 or int8",
+            ));
+        }
+        self.string()
+    }
+
+    fn boolean(&mut self) -> Result<bool, Fault> {
+        if self.eat("True") {
+            return Ok(true);
+        }
+        self.expect("False").map(|()| false)
+    }
+
+    fn shape(&mut self) -> Result<Vec<u64>, Fault> {
+        self.expect("(")?;
+        let mut shape = Vec::new();
+        while !self.eat(")") {
+            let text = self.0.trim_start();
+            let digits = text.len() - text.trim_start_matches(|c: char| c.is_ascii_digit()).len();
+            shape.push(text[..digits].parse().map_err(|_| malformed("a shape of numbers below 2^64"))?);
+            self.0 = &text[digits..];
+            // Python 2 wrote long integers.
+            self.eat("L");
+            if !self.eat(",") {
+                self.expect(")")?;
+                break;
+            }
+        }
+        Ok(shape)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(text: &str) -> Result<Header, String> {
+        Header::parse(text, 128).map_err(|fault| fault.to_string())
+    }
+
+    #[test]
+    fn every_spelling_that_numpy_writes() {
+        let expected = Header {
+            element: Element::Float64,
+            big_endian: false,
+            fortran_order: true,
+            shape: [3, 14],
+            length: 128,
+        };
+        for text in [
+            "{'descr': '<f8', 'fortran_order': True, 'shape': (3, 14), }          \n",
+            "{'shape':(3,14),'fortran_order':True,'descr':'<f8'}",
+            "{\"descr\": \"<f8\", \"fortran_order\": True, \"shape\": (3L, 14L)}\n",
+        ] {
+            assert_eq!(parse(text), Ok(expected.clone()), "{text}");
+        }
+        let swapped = parse("{'descr': '>f4', 'fortran_order': False, 'shape': (3, 14), }").unwrap();
+        assert_eq!((swapped.element, swapped.big_endian), (Element::Float32, true));
+    }
+
+    #[test]
+    fn what_is_found_and_what_is_allowed_is_said() {
+        for (descr, shape, words) in [
+            ("'|O'", "(3, 14)", "Python objects"),
+            ("'<c16'", "(3, 14)", "complex"),
+            ("'<i4'", "(3, 14)", "integers other than int8"),
+            ("'<f2'", "(3, 14)", "floats other"),
+            ("'<U5'", "(3, 14)", "no numbers"),
+            ("[('p', '<f8')]", "(3, 14)", "structured"),
+            ("'<f8'", "(3, 14, 15)", "3 dimensions"),
+            ("'<f8'", "(3,)", "1 dimensions"),
+            ("'<f8'", "()", "0 dimensions"),
+            ("'<f8'", "(3, -14)", "malformed"),
+            ("'<f8'", "(3, 99999999999999999999)", "malformed"),
+        ] {
+            let text = format!("{{'descr': {descr}, 'fortran_order': False, 'shape': {shape}, }}");
+            let refused = parse(&text).unwrap_err();
+            assert!(refused.contains(words) && refused.contains("allowed"), "{text}: {refused}");
+        }
+    }
+
+    #[test]
+    fn malformed_dictionaries_are_refused() {
+        for text in [
+            "",
+            "{",
+            "{}",
+            "{'descr'",
+            "{'descr': '<f8', 'shape': (3, 14), }",
+            "{'descr': '<f8', 'descr': '<f8', 'fortran_order': False, 'shape': (3, 14), }",
+            "{'descr': '<f8', 'fortran_order': False, 'shape': (3, 14), 'more': 2, }",
+            "{'descr': '<f8', 'fortran_order': 0, 'shape': (3, 14), }",
+            "{'descr': '<f8', 'fortran_order': False, 'shape': (3, 14), } more",
+            "{'descr': '<f8', 'fortran_order': False, 'shape': ((((((((3, 14), }",
+        ] {
+            assert!(parse(text).unwrap_err().contains("malformed"), "{text}");
+        }
+    }
+}

@@ -1,0 +1,33 @@
+//! Probability mode: the occupancy of the grey level itself, in double precision, without thresholds or percent.
+
+use super::Description;
+use super::shading::Shading;
+use crate::maps::Fault;
+use crate::maps::image::Layout;
+
+/// The table for an image of this layout: `p = (white - grey) / white`, or `grey / white` under `negate`, where the grey
+/// of a colour is its average. The grey level `unknown`, and any transparency, is 1/2.
+pub(super) fn shading(
+    description: &Description,
+    layout: &Layout,
+    unknown: Option<u16>,
+) -> Result<Shading<f64>, Fault> {
+    let weights = layout.colour_sum();
+    let samples: u32 = weights.iter().sum();
+    let unknown = match unknown {
+        Some(level) if level > layout.white => {
+            return Err(Fault::new(format!(
+                "the unknown grey level {level} is none of this image; allowed is 0 to {}",
+                layout.white
+            )));
+        }
+        level => level.map(|level| u32::from(level) * u32::from(layout.max / layout.white) * samples),
+    };
+    let white = samples * u32::from(layout.max);
+    let shading = Shading::new(layout, weights, |sum| {
+        let occupied = if description.negate { sum } else { white - sum };
+        let p = if Some(sum) == unknown { 0.5 } else { f64::from(occupied) / f64::from(white) };
+        (p, false)
+    });
+    Ok(if layout.channels.alpha() { shading.with_alpha(layout.max, |_| 0.5) } else { shading })
+}

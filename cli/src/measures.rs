@@ -1,0 +1,172 @@
+//! What is measured of a map, and whether it means anything.
+
+use crate::maps::{Cells, with_grid};
+use crate::output::Number;
+use mean_information::cell::Cell;
+use mean_information::map::{Encoding, Grid};
+use mean_information::{Real, Tally};
+
+/// The measures of a grid: its size, the sums of Eqs. 2 to 4 of the paper, and the counts behind them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measures {
+    /// Columns.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// Eq. 4, in bits per observed cell; `None` if nothing is observed.
+    pub mean_information: Option<Number>,
+    /// Eq. 3, in bits.
+    pub information: Number,
+    /// Eq. 2, in bits, unknown cells at 1 bit each.
+    pub entropy: Number,
+    /// Cells with `p = 1/2`.
+    pub unknown: u64,
+    /// Observed cells with `p < 1/2`.
+    pub free: u64,
+    /// Observed cells with `p > 1/2`.
+    pub occupied: u64,
+    /// Why the mean information means nothing, if so.
+    pub doubt: Option<Doubt>,
+}
+
+impl Measures {
+    /// Measures a map in any encoding.
+    pub fn of(cells: &Cells) -> Self {
+        with_grid!(cells, grid => Self::of_grid(grid))
+    }
+
+    /// Measures a grid.
+    pub fn of_grid<E: Encoding>(grid: &Grid<E>) -> Self {
+        let tally = grid.tally();
+        let observed = tally.observed() > 0;
+        Self {
+            width: grid.width(),
+            height: grid.height(),
+            mean_information: observed.then(|| Number::new(tally.mean_information())),
+            information: Number::new(tally.information()),
+            entropy: Number::new(tally.entropy()),
+            unknown: tally.unknown(),
+            free: tally.free(),
+            occupied: tally.occupied(),
+            doubt: Doubt::about(grid, &tally),
+        }
+    }
+
+    /// The mean information in words, with the reason if it means nothing.
+    pub fn summary(&self) -> String {
+        let number =
+            self.mean_information.map_or("none".to_owned(), |x| format!("{x} bits per observed cell"));
+        let doubt = self.doubt.map(|doubt| format!(" (not meaningful: {})", doubt.reason()));
+        format!("mean information: {number}{}", doubt.unwrap_or_default())
+    }
+
+    /// Cells with `p != 1/2`.
+    pub fn observed(&self) -> u64 {
+        self.free + self.occupied
+    }
+}
+
+/// Why a mean information means nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Doubt {
+    /// Every observed cell has `p` 0 or 1.
+    Thresholded,
+    /// Every cell is unknown.
+    NothingObserved,
+    /// Every cell is unknown, and not because it is marked so: each holds 50 percent.
+    AllFiftyPercent,
+}
+
+impl Doubt {
+    fn about<E: Encoding>(grid: &Grid<E>, tally: &Tally<E::Float>) -> Option<Self> {
+        let cells = grid.cells();
+        if tally.observed() > 0 {
+            is_thresholded(tally).then_some(Self::Thresholded)
+        } else if !cells.is_empty() && cells.iter().all(|&stored| stored != E::unknown()) {
+            Some(Self::AllFiftyPercent)
+        } else {
+            Some(Self::NothingObserved)
+        }
+    }
+
+    /// In a few words, to stand beside the number.
+    pub fn reason(self) -> &'static str {
+        match self {
+            Self::Thresholded => "thresholded",
+            Self::NothingObserved => "nothing observed",
+            Self::AllFiftyPercent => "all 50 percent",
+        }
+    }
+
+    /// In a sentence.
+    pub fn warning(self) -> &'static str {
+        match self {
+            Self::Thresholded => {
+                "thresholded: every observed cell has p = 0 or 1, so the mean information is 1 whatever the map shows"
+            }
+            Self::NothingObserved => {
+                "nothing observed: every cell is unknown, so there is no mean information"
+            }
+            Self::AllFiftyPercent => {
+                "every cell is exactly 50 percent, which means unknown: nothing is observed"
+            }
+        }
+    }
+}
+
+/// Whether the cells' tally is that of cells with `p` 0, 1/2 and 1 only. Sums are exact, so no cell hides in rounding.
+fn is_thresholded<T: Real>(tally: &Tally<T>) -> bool {
+    let counts = [(T::zero(), tally.free()), (T::HALF, tally.unknown()), (T::one(), tally.occupied())];
+    let mut certain = Tally::new();
+    for (cell, count) in
+        counts.into_iter().filter_map(|(p, count)| Some((Cell::from_occupancy(p).ok()?, count)))
+    {
+        certain.add_many(cell, count);
+    }
+    certain == *tally
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mean_information::map::Geometry;
+    use mean_information::map::encoding::{LogOdds, MrptLogOdds, Percent, Probability};
+
+    fn grid<E: Encoding>(cells: &[E::Stored]) -> Grid<E> {
+        Grid::new(cells.len(), 1, Geometry::new(0.2, [0.0; 2]).unwrap(), cells.to_vec()).unwrap()
+    }
+
+    fn doubt<E: Encoding>(cells: &[E::Stored]) -> Option<Doubt> {
+        Measures::of_grid(&grid::<E>(cells)).doubt
+    }
+
+    #[test]
+    fn thresholded_in_every_encoding() {
+        assert_eq!(doubt::<Probability<f64>>(&[0.0, 1.0, 0.5]), Some(Doubt::Thresholded));
+        assert_eq!(doubt::<Probability<f32>>(&[0.0, 1.0, f32::MIN_POSITIVE]), None);
+        assert_eq!(doubt::<LogOdds<f64>>(&[f64::INFINITY, 0.0]), Some(Doubt::Thresholded));
+        // Its occupancy rounds to 1, but the cell is not certain.
+        assert_eq!(doubt::<LogOdds<f64>>(&[f64::INFINITY, 60.0]), None);
+        assert_eq!(doubt::<MrptLogOdds>(&[127, -127]), None);
+    }
+
+    #[test]
+    fn unknown_in_every_encoding() {
+        assert_eq!(doubt::<Probability<f64>>(&[0.5; 3]), Some(Doubt::NothingObserved));
+        assert_eq!(doubt::<LogOdds<f32>>(&[0.0, -0.0]), Some(Doubt::NothingObserved));
+        assert_eq!(doubt::<MrptLogOdds>(&[0; 3]), Some(Doubt::NothingObserved));
+        assert_eq!(doubt::<Percent>(&[50, 50]), Some(Doubt::AllFiftyPercent));
+        assert_eq!(doubt::<Percent>(&[50, -1]), Some(Doubt::NothingObserved));
+        assert_eq!(doubt::<Percent>(&[]), Some(Doubt::NothingObserved));
+        assert_eq!(doubt::<Percent>(&[50, 49]), None);
+    }
+
+    #[test]
+    fn a_map_in_single_precision_has_results_in_single_precision() {
+        let measures = Measures::of(&Cells::Probability32(grid(&[0.125, 0.5, 0.75])));
+        let entropy = |p: f64| -p * libm::log2(p) - (1.0 - p) * libm::log2(1.0 - p);
+        let expected = f32::nearest((2.0 - entropy(0.125) - entropy(0.75)) / 2.0);
+        assert_eq!(measures.mean_information, Some(Number::Single(expected)));
+        assert_eq!((measures.unknown, measures.free, measures.occupied), (1, 1, 1));
+    }
+}

@@ -1,0 +1,80 @@
+//! What every command does with its result: a table, JSON or CSV; to standard output or to files.
+
+mod files;
+mod number;
+mod record;
+mod table;
+
+pub use files::Files;
+pub use number::Number;
+pub(crate) use number::{decimal_exponent, short};
+pub use record::{Record, Value};
+pub use table::{table, with_notes};
+
+use crate::arguments::Writing;
+use crate::failure::Failure;
+use clap::ValueEnum;
+use std::io::{self, Write};
+
+/// The form of a result.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// For people.
+    #[default]
+    Table,
+    /// For programs: the keys of the contract, in its order.
+    Json,
+    /// For spreadsheets: the columns are the keys of the JSON.
+    Csv,
+}
+
+/// A result that can be written in every [`Format`].
+pub trait Report {
+    /// For people; ends with a newline.
+    fn table(&self) -> String;
+
+    /// One record per row; all have the same keys.
+    fn rows(&self) -> Vec<Record>;
+
+    /// The array of the rows, unless a command says otherwise.
+    fn json(&self) -> Value {
+        Value::Records(self.rows())
+    }
+
+    /// The text in one of the formats.
+    fn text(&self, format: Format) -> String {
+        match format {
+            Format::Table => self.table(),
+            Format::Json => record::to_json(&self.json()),
+            Format::Csv => record::to_csv(&self.rows()),
+        }
+    }
+}
+
+impl Writing {
+    /// Writes `report` where it was asked for, together with the other `files` of the command: first the files, all or
+    /// none, then standard output.
+    ///
+    /// # Errors
+    /// A file that cannot be written or is an input; standard output that cannot be written. A reader who closed
+    /// standard output early is no error.
+    pub fn write(&self, report: &impl Report, mut files: Files) -> Result<(), Failure> {
+        let text = report.text(self.format);
+        if let Some(path) = &self.output {
+            files.add(path, text.into_bytes());
+            return files.write();
+        }
+        files.write()?;
+        print(&text)
+    }
+}
+
+fn print(text: &str) -> Result<(), Failure> {
+    let mut stdout = io::stdout().lock();
+    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(Failure::StandardOutput(error.to_string()))
+        }
+        _ => Ok(()),
+    }
+}

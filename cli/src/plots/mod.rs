@@ -1,0 +1,71 @@
+//! Pictures: the information of every cell, and the measures against cell size. Drawn into memory, with the same bytes
+//! on every run and machine.
+
+mod bitmap;
+mod canvas;
+mod heat_map;
+
+mod scale;
+mod sweep;
+
+pub use heat_map::HeatMap;
+pub use sweep::SweepPlot;
+
+use crate::failure::Failure;
+use crate::maps::one_line;
+use std::ffi::OsStr;
+use std::path::Path;
+
+/// The form of a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Picture {
+    /// Scalable, with text as text.
+    Svg,
+    /// Pixels.
+    Png,
+}
+
+impl Picture {
+    /// The form that the name of a file asks for.
+    ///
+    /// # Errors
+    /// A name that ends neither in `.svg` nor in `.png`.
+    pub fn by_name(path: &Path) -> Result<Self, Failure> {
+        match path.extension().map(OsStr::to_ascii_lowercase) {
+            Some(ending) if ending == "svg" => Ok(Self::Svg),
+            Some(ending) if ending == "png" => Ok(Self::Png),
+            _ => Err(Failure::Usage(format!("{}: a picture's name ends in .svg or .png", path.display()))),
+        }
+    }
+}
+
+/// Refuses the name of a heat map that does not end in `.png`.
+///
+/// # Errors
+/// Such a name.
+pub fn require_png(path: &Path) -> Result<(), Failure> {
+    match Picture::by_name(path) {
+        Ok(Picture::Png) => Ok(()),
+        _ => Err(Failure::Usage(format!("{}: the name of a heat map ends in .png", path.display()))),
+    }
+}
+
+/// What a picture calls a map: the name of its file, as much of it as fits and without the two characters that XML
+/// cannot hold.
+pub fn title(path: &Path) -> String {
+    let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+    let name = one_line(&name).replace(['\u{fffe}', '\u{ffff}'], "?");
+    match name.char_indices().nth(48) {
+        Some((end, _)) => name[..end].to_owned() + "...",
+        None => name,
+    }
+}
+
+/// The fonts of labels and of titles; pictures of pixels have [`canvas`]'s instead.
+const LABEL: (&str, i32) = ("sans-serif", 17);
+const TITLE: (&str, i32, plotters::style::FontStyle) = ("sans-serif", 21, plotters::style::FontStyle::Bold);
+
+/// Drawing into memory fails only where a plot has no room, which its caller prevents.
+fn drawing_failure(error: impl std::fmt::Display) -> Failure {
+    Failure::Drawing(error.to_string())
+}

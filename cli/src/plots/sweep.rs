@@ -1,0 +1,207 @@
+//! Mean information and total entropy against cell size: the contrast behind Fig. 2d of the paper.
+
+use super::bitmap::Bitmap;
+use super::canvas::Canvas;
+use super::{LABEL, Picture, TITLE, drawing_failure};
+use crate::commands::{Step, Sweep};
+use crate::failure::Failure;
+use crate::output::short;
+use plotters::coord::Shift;
+use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint};
+use plotters::prelude::*;
+use std::ops::Range;
+
+const SIZE: (u32, u32) = (900, 780);
+/// The part of an axis above its highest tick, where the legend meets no curve.
+const LEGEND_ROOM: f64 = 0.2;
+const MEAN_INFORMATION: RGBColor = RGBColor(0, 90, 170);
+const ENTROPY: RGBColor = RGBColor(190, 75, 0);
+
+/// Two panels over one axis of cell sizes, which doubles from tick to tick.
+#[derive(Debug)]
+pub struct SweepPlot {
+    title: String,
+    cell_axis: String,
+    cell_sizes: Vec<String>,
+    /// By step, in bits per observed cell.
+    mean_information: Vec<(f64, f64)>,
+    /// By step, as the decimal logarithm of bits.
+    entropy: Vec<(f64, f64)>,
+    entropy_label: &'static str,
+}
+
+/// A linear axis with its ticks given.
+#[derive(Clone)]
+struct Axis {
+    range: Range<f64>,
+    ticks: Vec<f64>,
+}
+
+impl Ranged for Axis {
+    type FormatOption = DefaultFormatting;
+    type ValueType = f64;
+
+    fn map(&self, x: &f64, (start, end): (i32, i32)) -> i32 {
+        let part = (x - self.range.start) / (self.range.end - self.range.start);
+        start + (part * f64::from(end - start)).round() as i32
+    }
+
+    fn key_points<Hint: KeyPointHint>(&self, _: Hint) -> Vec<f64> {
+        self.ticks.clone()
+    }
+
+    fn range(&self) -> Range<f64> {
+        self.range.clone()
+    }
+}
+
+/// A panel: its curve, and its vertical axis.
+struct Panel<'a> {
+    axis: Axis,
+    axis_label: &'a str,
+    label: &'a str,
+    colour: RGBColor,
+    points: &'a [(f64, f64)],
+    tick_label: &'a dyn Fn(&f64) -> String,
+}
+
+impl SweepPlot {
+    /// The plot of `sweep`.
+    pub fn new(sweep: &Sweep, map: &str) -> Self {
+        let size = |step: &Step| short(sweep.cell_size(step).unwrap_or(step.k as f64));
+        let steps = || (0_u32..).map(f64::from).zip(&sweep.steps);
+        let bits = |step: &Step| step.measures.entropy.widen();
+        let some_zero = sweep.steps.iter().any(|step| bits(step) == 0.0);
+        Self {
+            title: format!("{map}: mean information and entropy by cell size"),
+            cell_axis: match sweep.resolution {
+                Some(_) => "cell size (m)".to_owned(),
+                None => "cell size (cells of the map)".to_owned(),
+            },
+            cell_sizes: sweep.steps.iter().map(size).collect(),
+            mean_information: steps()
+                .filter_map(|(x, step)| Some((x, step.measures.mean_information?.widen())))
+                .collect(),
+            entropy: steps()
+                .filter(|(_, step)| bits(step) > 0.0)
+                .map(|(x, step)| (x, libm::log10(bits(step))))
+                .collect(),
+            entropy_label: if some_zero {
+                "entropy of all cells, unknown ones at 1 bit (0 is not shown)"
+            } else {
+                "entropy of all cells, unknown ones at 1 bit"
+            },
+        }
+    }
+
+    /// The bytes of the picture.
+    ///
+    /// # Errors
+    /// None is known.
+    pub fn draw(&self, picture: Picture) -> Result<Vec<u8>, Failure> {
+        match picture {
+            Picture::Svg => {
+                let mut text = String::new();
+                self.draw_on(&SVGBackend::with_string(&mut text, SIZE).into_drawing_area())
+                    .map_err(drawing_failure)?;
+                Ok(text.into_bytes())
+            }
+            Picture::Png => {
+                let mut picture = Bitmap::new(SIZE.0, SIZE.1);
+                self.draw_on(&Canvas::new(&mut picture).into_drawing_area()).map_err(drawing_failure)?;
+                picture.png().map_err(drawing_failure)
+            }
+        }
+    }
+
+    fn draw_on<B: DrawingBackend>(
+        &self,
+        paper: &DrawingArea<B, Shift>,
+    ) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
+        paper.fill(&WHITE)?;
+        let paper = paper.titled(&self.title, TITLE.into_font().color(&BLACK))?;
+        let (upper, lower) = paper.split_vertically(SIZE.1 as i32 / 2 - 26);
+        self.draw_panel(
+            &upper,
+            &Panel {
+                axis: Axis { range: 0.0..1.0 + LEGEND_ROOM, ticks: vec![0.0, 0.2, 0.4, 0.6, 0.8, 1.0] },
+                axis_label: "mean information (bits / cell)",
+                label: "mean information of the observed cells",
+                colour: MEAN_INFORMATION,
+                points: &self.mean_information,
+                tick_label: &|bits| format!("{bits:.1}"),
+            },
+        )?;
+        let lowest = self.entropy.iter().fold(f64::INFINITY, |low, &(_, y)| low.min(y.floor()));
+        let highest = self.entropy.iter().fold(f64::NEG_INFINITY, |high, &(_, y)| high.max(y.ceil()));
+        let decades = if lowest < highest { lowest as i32..=highest as i32 } else { 0..=1 };
+        let stride = 1 + decades.clone().count() / 9;
+        let (start, end) = (f64::from(*decades.start()), f64::from(*decades.end()));
+        self.draw_panel(
+            &lower,
+            &Panel {
+                axis: Axis {
+                    range: start..end + LEGEND_ROOM * (end - start),
+                    ticks: decades.step_by(stride).map(f64::from).collect(),
+                },
+                axis_label: "total entropy (bits)",
+                label: self.entropy_label,
+                colour: ENTROPY,
+                points: &self.entropy,
+                tick_label: &|exponent| power_of_ten(*exponent as i32),
+            },
+        )
+    }
+
+    fn draw_panel<B: DrawingBackend>(
+        &self,
+        area: &DrawingArea<B, Shift>,
+        panel: &Panel,
+    ) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
+        let last = self.cell_sizes.len() - 1;
+        let stride = 1 + last / 12;
+        let steps = Axis {
+            range: -0.4..last as f64 + 0.4,
+            ticks: (0..=last).step_by(stride).map(|step| step as f64).collect(),
+        };
+        let mut chart = ChartBuilder::on(area)
+            .margin(12)
+            .margin_right(28)
+            .set_label_area_size(LabelAreaPosition::Left, 104)
+            .set_label_area_size(LabelAreaPosition::Bottom, 56)
+            .build_cartesian_2d(steps, panel.axis.clone())?;
+        chart
+            .configure_mesh()
+            .max_light_lines(0)
+            .bold_line_style(RGBColor(220, 220, 220))
+            .axis_style(BLACK)
+            .label_style(LABEL)
+            .axis_desc_style(LABEL)
+            .x_desc(&*self.cell_axis)
+            .y_desc(panel.axis_label)
+            .x_label_formatter(&|step| self.cell_sizes[*step as usize].clone())
+            .y_label_formatter(panel.tick_label)
+            .draw()?;
+        let colour = panel.colour;
+        chart
+            .draw_series(LineSeries::new(panel.points.iter().copied(), colour.stroke_width(2)))?
+            .label(panel.label)
+            .legend(move |at| {
+                EmptyElement::at(at)
+                    + PathElement::new([(0, 0), (20, 0)], colour.stroke_width(2))
+                    + Circle::new((10, 0), 4, colour.filled())
+            });
+        chart.draw_series(panel.points.iter().map(|&point| Circle::new(point, 4, colour.filled())))?;
+        chart
+            .configure_series_labels()
+            .position(SeriesLabelPosition::UpperRight)
+            .background_style(WHITE)
+            .border_style(RGBColor(160, 160, 160))
+            .label_font(LABEL)
+            .draw()
+    }
+}
+
+fn power_of_ten(exponent: i32) -> String {
+    format!("1e{exponent}").parse().map_or(String::new(), short)
+}

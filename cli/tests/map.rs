@@ -1,0 +1,142 @@
+//! `meaninfo map`: the numbers, and the contract of its three forms of output.
+
+mod common;
+
+use common::*;
+use serde_json::Value;
+
+const KEYS: [&str; 18] = [
+    "map",
+    "width",
+    "height",
+    "resolution_m",
+    "mean_information",
+    "mean_information_hex",
+    "information_bits",
+    "information_bits_hex",
+    "entropy_bits",
+    "entropy_bits_hex",
+    "observed",
+    "unknown",
+    "free",
+    "occupied",
+    "observed_area_m2",
+    "observed_area_m2_hex",
+    "meaningful",
+    "warnings",
+];
+
+fn json(arguments: &[&str]) -> Value {
+    serde_json::from_str(&stdout(&[arguments, &["--format", "json"]].concat())).unwrap()
+}
+
+#[test]
+fn json_holds_the_contract() {
+    let folder = Folder::new();
+    let map = folder.ros_map("room", 5, &GREYS, "scale");
+    let text = stdout(&["map", &map, "--format", "json"]);
+    assert_eq!(keys(&text, 4), KEYS);
+    let json: Value = serde_json::from_str(&text).unwrap();
+    let [found] = json.as_array().unwrap().as_slice() else { panic!("{text}") };
+    assert_twins(found, 4);
+
+    let p = occupancies(&GREYS);
+    let known: Vec<f64> = p.iter().copied().filter(|&p| p != 0.5).collect();
+    let information: f64 = known.iter().map(|&p| 1.0 - entropy(p)).sum();
+    assert_eq!(found["map"], map.as_str());
+    assert_eq!((&found["width"], &found["height"]), (&5.into(), &3.into()));
+    assert_eq!(found["resolution_m"], 0.2);
+    assert_near(&found["mean_information"], information / known.len() as f64);
+    assert_near(&found["information_bits"], information);
+    assert_near(&found["entropy_bits"], p.iter().map(|&p| entropy(p)).sum());
+    assert_eq!((&found["observed"], &found["unknown"]), (&11.into(), &4.into()));
+    assert_eq!((&found["free"], &found["occupied"]), (&6.into(), &5.into()));
+    assert_near(&found["observed_area_m2"], 11.0 * 0.04);
+    assert_eq!((&found["meaningful"], &found["warnings"]), (&true.into(), &Value::Array(vec![])));
+}
+
+#[test]
+fn csv_says_the_same_as_json() {
+    let folder = Folder::new();
+    let maps = [folder.ros_map("a, b", 5, &GREYS, "scale"), folder.ros_map("black", 3, &[0; 6], "trinary")];
+    let arguments = ["map", &maps[0], &maps[1]];
+    let csv_text = stdout(&[&arguments[..], &["--format", "csv"]].concat());
+    let mut csv = csv::Reader::from_reader(csv_text.as_bytes());
+    assert_eq!(csv.headers().unwrap().iter().collect::<Vec<_>>(), KEYS);
+    let rows: Vec<_> = csv.records().map(Result::unwrap).collect();
+    let json = json(&arguments);
+    assert_eq!((rows.len(), json.as_array().unwrap().len()), (2, 2));
+    for (row, object) in rows.iter().zip(json.as_array().unwrap()) {
+        for (field, key) in row.iter().zip(KEYS) {
+            match &object[key] {
+                Value::Number(number) => assert_eq!(field.parse::<f64>().ok(), number.as_f64(), "{key}"),
+                Value::Array(texts) => {
+                    assert_eq!(field, texts.iter().filter_map(Value::as_str).collect::<Vec<_>>().join("; "));
+                }
+                Value::String(text) => assert_eq!(field, text),
+                other => assert_eq!(field, other.to_string(), "{key}"),
+            }
+        }
+    }
+}
+
+#[test]
+fn one_table_for_several_maps() {
+    let folder = Folder::new();
+    let maps = [folder.ros_map("grey", 5, &GREYS, "scale"), folder.ros_map("black", 3, &[0; 6], "trinary")];
+    let table = stdout(&["map", &maps[0], &maps[1]]);
+    assert!(table.contains("mean information"), "{table}");
+    let json = json(&["map", &maps[0], &maps[1]]);
+    for object in json.as_array().unwrap() {
+        for key in ["mean_information", "observed", "free", "occupied", "unknown"] {
+            assert!(table.contains(&object[key].to_string()), "{key} of {object} in\n{table}");
+        }
+    }
+    assert!(table.contains("not meaningful") && table.contains("thresholded"), "{table}");
+    let note = format!("{}: {}\n", maps[1], json[1]["warnings"][0].as_str().unwrap());
+    assert!(table.ends_with(&note), "{table}");
+    let rules = table.lines().filter(|line| line.starts_with('─'));
+    assert!(rules.clone().count() > 0 && rules.map(|line| line.chars().count()).all(|width| width <= 120));
+}
+
+#[test]
+fn a_thresholded_map_is_not_meaningful() {
+    let folder = Folder::new();
+    let json = json(&["map", &folder.ros_map("plan", 3, &[254, 205, 0, 254, 254, 0], "trinary")]);
+    assert_eq!(json[0]["mean_information"], 1.0);
+    assert_eq!((&json[0]["observed"], &json[0]["unknown"]), (&5.into(), &1.into()));
+    assert_eq!(json[0]["meaningful"], false);
+    assert!(json[0]["warnings"][0].as_str().unwrap().starts_with("thresholded: "), "{json}");
+}
+
+#[test]
+fn one_cell_in_doubt_makes_a_map_meaningful() {
+    let folder = Folder::new();
+    let json = json(&["map", &folder.ros_map("plan", 3, &[255, 127, 0, 255, 250, 0], "scale")]);
+    assert_eq!((&json[0]["meaningful"], &json[0]["warnings"]), (&true.into(), &Value::Array(vec![])));
+}
+
+#[test]
+fn nothing_observed_has_no_mean_information() {
+    let folder = Folder::new();
+    let json = json(&["map", &folder.ros_map("fog", 3, &[205; 6], "trinary")]);
+    assert_eq!(
+        (&json[0]["mean_information"], &json[0]["mean_information_hex"]),
+        (&Value::Null, &Value::Null)
+    );
+    assert_eq!((&json[0]["entropy_bits"], &json[0]["information_bits"]), (&6.0.into(), &0.0.into()));
+    assert_eq!((&json[0]["unknown"], &json[0]["meaningful"]), (&6.into(), &false.into()));
+    assert!(json[0]["warnings"].to_string().contains("every cell is unknown"), "{json}");
+}
+
+#[test]
+fn a_map_of_fifty_percent_is_told_from_one_marked_unknown() {
+    let folder = Folder::new();
+    let map = folder.ros_map("grey", 3, &[127; 6], "scale");
+    for semantics in ["nav2", "ros1"] {
+        let json = json(&["map", &map, "--semantics", semantics]);
+        assert_eq!((&json[0]["mean_information"], &json[0]["meaningful"]), (&Value::Null, &false.into()));
+        assert!(json[0]["warnings"].to_string().contains("exactly 50 percent"), "{json}");
+    }
+    assert!(stdout(&["map", &map]).contains("all 50 percent"));
+}

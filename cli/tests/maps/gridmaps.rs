@@ -1,0 +1,141 @@
+//! MRPT grid maps written here: every version, and the ways to break one.
+
+use crate::support::{Folder, Measured, measure, probabilities, refusal};
+use flate2::Compression;
+use flate2::write::GzEncoder;
+use mean_information_cli::maps::{self, Cells, Options};
+use std::io::Write;
+
+/// A grid map of 3 x 2 cells of 0.25 m, whose options are some bytes.
+#[derive(Clone)]
+pub(crate) struct GridMap {
+    name: &'static [u8],
+    version: u8,
+    bits: u8,
+    size: [u32; 2],
+    /// x from, x to, y from, y to, resolution.
+    place: [f32; 5],
+    cells: Vec<u8>,
+    tail: Vec<u8>,
+}
+
+impl GridMap {
+    pub(crate) fn small() -> Self {
+        Self {
+            name: b"mrpt::maps::COccupancyGridMap2D",
+            version: 6,
+            bits: 8,
+            size: [3, 2],
+            place: [-0.5, 0.25, 2.0, 2.5, 0.25],
+            cells: [-128_i8, -127, -1, 0, 1, 127].map(i8::cast_unsigned).to_vec(),
+            tail: [vec![7; 500], vec![0x88]].concat(),
+        }
+    }
+
+    pub(crate) fn header(&self) -> Vec<u8> {
+        let mut bytes = vec![0x80 + self.name.len() as u8];
+        bytes.extend(self.name);
+        bytes.extend([self.version, self.bits]);
+        self.size.iter().for_each(|n| bytes.extend(n.to_le_bytes()));
+        self.place.iter().for_each(|x| bytes.extend(x.to_le_bytes()));
+        bytes
+    }
+
+    pub(crate) fn bytes(&self) -> Vec<u8> {
+        [self.header(), self.cells.clone(), self.tail.clone()].concat()
+    }
+}
+
+pub(crate) fn gzip(bytes: &[u8]) -> Vec<u8> {
+    let mut encoder = GzEncoder::new(Vec::new(), Compression::fast());
+    encoder.write_all(bytes).unwrap();
+    encoder.finish().unwrap()
+}
+
+#[test]
+fn every_version_plain_and_zipped() {
+    let folder = Folder::new();
+    for version in 3..=7 {
+        for name in [&b"COccupancyGridMap2D"[..], b"mrpt::maps::COccupancyGridMap2D"] {
+            let bytes = GridMap { name, version, ..GridMap::small() }.bytes();
+            for (file, bytes) in [
+                ("map.gridmap", bytes.clone()),
+                ("map.gridmap.gz", gzip(&bytes)),
+                ("zipped.gridmap", gzip(&bytes)),
+                ("two.gridmap.gz", [gzip(&bytes[..60]), gzip(&bytes[60..])].concat()),
+            ] {
+                let map = maps::read(&folder.write(file, bytes), &Options::default()).unwrap();
+                assert_eq!(map.resolution, Some(0.25));
+                let Cells::Mrpt(grid) = &map.cells else { panic!("{map:?}") };
+                assert_eq!((grid.width(), grid.height(), grid.geometry().origin()), (3, 2, [-0.5, 2.0]));
+                assert_eq!(grid.cells(), [-128, -127, -1, 0, 1, 127]);
+                // Positive is free.
+                let Measured { free, occupied, unknown, .. } = measure(&map);
+                assert_eq!((free, occupied, unknown), (2, 3, 1));
+            }
+        }
+    }
+}
+
+#[test]
+fn version_2_holds_probabilities_of_free() {
+    let folder = Folder::new();
+    let old = GridMap { version: 2, cells: vec![0, 51, 127, 128, 129, 255], ..GridMap::small() };
+    let map = maps::read(&folder.write("map.gridmap", old.bytes()), &Options::default()).unwrap();
+    assert_eq!(probabilities(&map), [1.0, 0.8, 0.5, 0.5, 126.0 / 255.0, 0.0]);
+    assert!(map.warnings[0].contains("2 cells of 127 or 128"), "{:?}", map.warnings);
+}
+
+#[test]
+fn what_is_no_map_is_refused() {
+    let small = GridMap::small;
+    let good = small().bytes();
+    let nan = f32::NAN;
+    let cases: Vec<(Vec<u8>, &str)> = vec![
+        (Vec::new(), "the file is empty"),
+        (b"P5 2 2 255 1234".to_vec(), "is no MRPT grid map"),
+        (b"\x93COccupancyGridMap3D\x03".to_vec(), "is no MRPT grid map"),
+        (GridMap { version: 1, ..small() }.bytes(), "version 1, allowed is 2 to 7"),
+        (GridMap { version: 8, ..small() }.bytes(), "version 8, allowed is 2 to 7"),
+        (GridMap { bits: 16, ..small() }.bytes(), "cells of 16 bits"),
+        (GridMap { size: [4, 2], ..small() }.bytes(), "claims 4 cells along x"),
+        (GridMap { size: [3, 5], ..small() }.bytes(), "claims 5 cells along y"),
+        (GridMap { place: [-0.5, 0.25, 2.0, 2.5, 0.0], ..small() }.bytes(), "resolution is 0"),
+        (GridMap { place: [-0.5, 0.25, 2.0, 2.5, -0.25], ..small() }.bytes(), "resolution is -0.25"),
+        (GridMap { place: [-0.5, 0.25, 2.0, 2.5, nan], ..small() }.bytes(), "resolution is NaN"),
+        (GridMap { place: [nan, 0.25, 2.0, 2.5, 0.25], ..small() }.bytes(), "origin is NaN"),
+        (GridMap { place: [-0.5, nan, 2.0, 2.5, 0.25], ..small() }.bytes(), "claims 3 cells along x"),
+        (GridMap { size: [u32::MAX, u32::MAX], ..small() }.bytes(), "more than the limit of 1073741824"),
+        (good[..20].to_vec(), "cut short"),
+        (good[..58].to_vec(), "cut short"),
+        (good[..good.len() - 1].to_vec(), "end mark"),
+        ([good.as_slice(), b"more"].concat(), "end mark"),
+        (GridMap { tail: vec![0x88; 70_000], ..small() }.bytes(), "goes on for more than 65536 bytes"),
+        (gzip(&good)[..60].to_vec(), "cut short"),
+        ([gzip(&good).as_slice(), b"more"].concat(), "cut short"),
+        ([gzip(&good).as_slice(), b"a longer text"].concat(), "cannot be read: invalid gzip header"),
+        (gzip(b""), "cut short"),
+    ];
+    for (bytes, words) in cases {
+        let refused = refusal("map.gridmap.gz", bytes, &Options::default());
+        assert!(refused.contains(words), "{refused}: {words}");
+    }
+}
+
+/// What decompresses to four gigabytes is refused by its claim, or where the map ends, without being decompressed.
+#[test]
+fn a_gzip_bomb_is_refused_early() {
+    let gigabytes = gzip(&vec![0; 1 << 24]).repeat(256);
+    let size = [1 << 16, 1 << 16];
+    let place = [0.0, 16384.0, 0.0, 16384.0, 0.25];
+    let honest = gzip(&GridMap { size, place, ..GridMap::small() }.header());
+    let refused =
+        refusal("map.gridmap.gz", [&honest, &gigabytes].map(Vec::as_slice).concat(), &Options::default());
+    assert!(refused.contains("4294967296 cells, more than the limit of 1073741824"), "{refused}");
+    assert!(refused.contains("--max-cells"), "{refused}");
+
+    let ended = gzip(&GridMap::small().bytes());
+    let refused =
+        refusal("map.gridmap.gz", [&ended, &gigabytes].map(Vec::as_slice).concat(), &Options::default());
+    assert!(refused.contains("goes on for more than"), "{refused}");
+}

@@ -1,0 +1,430 @@
+//! Every kind of image, written here, against the loaders' rules restated pixel by pixel from the stored samples.
+
+use crate::png_bytes::{raw_png, zlib};
+use crate::support::{Folder, Random, percents, pgm, probabilities, yaml};
+use mean_information_cli::maps::{self, Map, Mode, Options, Semantics};
+use png::{BitDepth, ColorType, Encoder};
+use std::borrow::Cow;
+
+const SIZE: usize = 37;
+
+/// What kind of PNG, and what follows from its chunks.
+#[derive(Clone, Debug)]
+struct Kind {
+    colour: ColorType,
+    depth: u8,
+    palette: Vec<[u8; 3]>,
+    /// Alpha per palette entry, or the transparent colour.
+    transparency: Option<Vec<u16>>,
+}
+
+impl Kind {
+    fn plain(colour: ColorType, depth: u8) -> Self {
+        Self { colour, depth, palette: Vec::new(), transparency: None }
+    }
+
+    fn all(random: &mut Random) -> Vec<Self> {
+        let mut kinds = Vec::new();
+        for depth in [1, 2, 4, 8, 16] {
+            let grey = Self::plain(ColorType::Grayscale, depth);
+            kinds.push(grey.clone());
+            kinds.push(Self { transparency: Some(vec![u16::from(depth > 1)]), ..grey });
+        }
+        for depth in [8, 16] {
+            for colour in [ColorType::GrayscaleAlpha, ColorType::Rgb, ColorType::Rgba] {
+                kinds.push(Self::plain(colour, depth));
+            }
+            kinds.push(Self { transparency: Some(vec![1, 0, 2]), ..Self::plain(ColorType::Rgb, depth) });
+        }
+        for depth in [1, 2, 4, 8] {
+            let palette: Vec<[u8; 3]> =
+                (0..1 << depth).map(|_| [(); 3].map(|()| random.below(256) as u8)).collect();
+            let alphas = |holes: &[usize], other: u16| {
+                Some((0..palette.len()).map(|k| if holes.contains(&k) { 0 } else { other }).collect())
+            };
+            for transparency in [None, alphas(&[1], 255), alphas(&[0, 1], 255), alphas(&[1], 254)] {
+                kinds.push(Self {
+                    colour: ColorType::Indexed,
+                    depth,
+                    palette: palette.clone(),
+                    transparency,
+                });
+            }
+        }
+        kinds
+    }
+
+    fn samples(&self) -> usize {
+        self.colour.samples()
+    }
+
+    /// Random pixels: the extremes and the savers' greys often, and small samples so that transparent colours occur.
+    fn pixels(&self, random: &mut Random) -> Vec<Vec<u16>> {
+        let most = (1_u32 << self.depth) - 1;
+        let mut sample = || match random.below(4) {
+            0 => random.below(3).min(most),
+            1 => most - random.below(3).min(most),
+            2 if most == 255 => 205,
+            _ => random.below(most + 1),
+        };
+        (0..SIZE * SIZE).map(|_| (0..self.samples()).map(|_| sample() as u16).collect()).collect()
+    }
+
+    fn encode(&self, pixels: &[Vec<u16>]) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        let mut encoder = Encoder::new(&mut bytes, SIZE as u32, SIZE as u32);
+        encoder.set_color(self.colour);
+        encoder.set_depth(BitDepth::from_u8(self.depth).unwrap());
+        encoder.set_filter(png::Filter::Adaptive);
+        if self.colour == ColorType::Indexed {
+            encoder.set_palette(self.palette.concat());
+        }
+        if let Some(transparency) = &self.transparency {
+            encoder.set_trns(match self.colour {
+                ColorType::Indexed => transparency.iter().map(|&alpha| alpha as u8).collect(),
+                _ => transparency.iter().flat_map(|sample| sample.to_be_bytes()).collect::<Vec<u8>>(),
+            });
+        }
+        let mut data = Vec::new();
+        for row in pixels.chunks(SIZE) {
+            let row: Vec<u16> = row.concat();
+            match self.depth {
+                16 => data.extend(row.iter().flat_map(|sample| sample.to_be_bytes())),
+                depth => data.extend(row.chunks(8 / usize::from(depth)).map(|samples| {
+                    (0..8 / usize::from(depth)).fold(0, |byte, k| {
+                        (u32::from(byte) << depth | u32::from(samples.get(k).copied().unwrap_or(0))) as u8
+                    })
+                })),
+            }
+        }
+        encoder.write_header().unwrap().write_image_data(&data).unwrap();
+        bytes
+    }
+
+    /// Red, green, blue and alpha as they are meant, and their white.
+    fn meant(&self, pixel: &[u16]) -> ([u32; 4], u32) {
+        let white = (1_u32 << self.depth) - 1;
+        if self.colour == ColorType::Indexed {
+            let index = usize::from(pixel[0]);
+            let alpha = self.transparency.as_ref().map_or(255, |alphas| u32::from(alphas[index]));
+            let [r, g, b] = self.palette[index].map(u32::from);
+            return ([r, g, b, alpha], 255);
+        }
+        let sample: Vec<u32> = pixel.iter().copied().map(u32::from).collect();
+        let clear = self.transparency.as_deref() == Some(pixel);
+        let alpha = if clear { 0 } else { white };
+        let colour = match self.colour {
+            ColorType::GrayscaleAlpha => [sample[0], sample[0], sample[0], sample[1]],
+            ColorType::Rgba => [sample[0], sample[1], sample[2], sample[3]],
+            ColorType::Rgb => [sample[0], sample[1], sample[2], alpha],
+            _ => [sample[0], sample[0], sample[0], alpha],
+        };
+        (colour, white)
+    }
+
+    /// The bytes of a pixel on SDL's surface, and whether it has an alpha mask.
+    fn on_sdl_surface(&self, pixel: &[u16]) -> (Vec<u8>, bool) {
+        let ([r, g, b, a], white) = self.meant(pixel);
+        let byte = |sample: u32| (if white == 65535 { sample >> 8 } else { sample * 255 / white }) as u8;
+        match self.colour {
+            ColorType::Indexed => {
+                let alphas = self.transparency.clone().unwrap_or_default();
+                let holes = alphas.iter().filter(|&&alpha| alpha == 0).count();
+                if holes < 2 && alphas.iter().all(|&alpha| alpha == 0 || alpha == 255) {
+                    (vec![pixel[0] as u8], false)
+                } else {
+                    ([r, g, b, a].map(byte).to_vec(), true)
+                }
+            }
+            ColorType::Grayscale if self.transparency.is_some() => ([g, a].map(byte).to_vec(), false),
+            ColorType::Grayscale => (vec![byte(g)], false),
+            ColorType::Rgb => ([r, g, b].map(byte).to_vec(), false),
+            ColorType::GrayscaleAlpha | ColorType::Rgba => ([r, g, b, a].map(byte).to_vec(), true),
+        }
+    }
+}
+
+/// Thresholds, and whether white is occupied.
+#[derive(Clone, Copy)]
+struct Rule {
+    free: f64,
+    occupied: f64,
+    negate: bool,
+}
+
+impl Rule {
+    fn nav2(&self, mode: Mode, [r, g, b, a]: [u32; 4], white: u32) -> i8 {
+        let byte = |sample: u32| if white == 65535 { sample >> 8 } else { sample * 255 / white };
+        let grey_16 = (0.299 * f64::from(257 * byte(r))
+            + 0.587 * f64::from(257 * byte(g))
+            + 0.114 * f64::from(257 * byte(b))
+            + 1e-6)
+            .round() as u32;
+        let level = grey_16 / 257;
+        if mode == Mode::Raw {
+            return if level > 100 { -1 } else { level as i8 };
+        }
+        if byte(a) < 255 {
+            return -1;
+        }
+        let shade = level as f32 / 255.0_f32;
+        let x = if self.negate { shade } else { 1.0_f32 - shade };
+        let (free, occupied) = (self.free as f32, self.occupied as f32);
+        match mode {
+            _ if x <= free => 0,
+            _ if x >= occupied => 100,
+            Mode::Scale => ((x - free) / ((self.occupied - self.free) as f32) * 100.0_f32).round() as i8,
+            _ => -1,
+        }
+    }
+
+    fn ros1(&self, mode: Mode, surface: &[u8], alpha_mask: bool) -> i8 {
+        let averaged = if mode == Mode::Trinary || !alpha_mask { surface.len() } else { surface.len() - 1 };
+        let sum: u32 = surface[..averaged].iter().copied().map(u32::from).sum();
+        let mut average = f64::from(sum) / averaged as f64;
+        let alpha = if surface.len() == 1 { 1 } else { surface[surface.len() - 1] };
+        if self.negate {
+            average = 255.0 - average;
+        }
+        if mode == Mode::Raw {
+            let value = average.floor() as u8 as i8;
+            return if (-1..=100).contains(&value) { value } else { -1 };
+        }
+        let x = (255.0 - average) / 255.0;
+        if x > self.occupied {
+            100
+        } else if x < self.free {
+            0
+        } else if mode == Mode::Trinary || alpha == 0 {
+            -1
+        } else {
+            (1.0 + 98.0 * ((x - self.free) / (self.occupied - self.free))).floor() as i8
+        }
+    }
+}
+
+fn rules() -> [Rule; 3] {
+    [
+        Rule { free: 0.196, occupied: 0.65, negate: false },
+        Rule { free: 0.25, occupied: 0.8, negate: true },
+        Rule { free: 0.0, occupied: 1.0, negate: false },
+    ]
+}
+
+fn read_with(folder: &Folder, image: &str, rule: Rule, options: &Options) -> Map {
+    let text = format!(
+        "image: {image}\nresolution: 0.05\norigin: [-3.5, 2.25, 0.125]\nnegate: {}\noccupied_thresh: {}\nfree_thresh: {}\n",
+        i32::from(rule.negate),
+        rule.occupied,
+        rule.free
+    );
+    maps::read(&folder.write("map.yaml", text), options).unwrap()
+}
+
+/// The pixels in the order of the grid's cells: the lowest image row first.
+fn in_grid_order<T: Clone>(pixels: &[T], width: usize) -> Vec<T> {
+    pixels.chunks(width).rev().flatten().cloned().collect()
+}
+
+#[test]
+fn every_kind_of_png_under_both_loaders_and_all_modes() {
+    let mut random = Random::new(5);
+    let folder = Folder::new();
+    let kinds = Kind::all(&mut random);
+    assert_eq!(kinds.len(), 34);
+    for kind in kinds {
+        let pixels = kind.pixels(&mut random);
+        folder.write("image.png", kind.encode(&pixels));
+        let pixels = in_grid_order(&pixels, SIZE);
+        for rule in rules() {
+            for mode in [Mode::Trinary, Mode::Scale, Mode::Raw] {
+                for semantics in [Semantics::Nav2, Semantics::Ros1] {
+                    let options = Options { semantics, mode: Some(mode), ..Options::default() };
+                    let map = read_with(&folder, "image.png", rule, &options);
+                    let expected: Vec<i8> = pixels
+                        .iter()
+                        .map(|pixel| match semantics {
+                            Semantics::Nav2 => {
+                                let (colour, white) = kind.meant(pixel);
+                                rule.nav2(mode, colour, white)
+                            }
+                            Semantics::Ros1 => {
+                                let (surface, alpha_mask) = kind.on_sdl_surface(pixel);
+                                rule.ros1(mode, &surface, alpha_mask)
+                            }
+                        })
+                        .collect();
+                    let wrong = percents(&map).iter().zip(&expected).position(|(a, b)| a != b);
+                    let wrong = wrong.map(|at| (pixels[at].clone(), percents(&map)[at], expected[at]));
+                    assert_eq!(wrong, None, "{kind:?} {mode:?} {semantics:?} {}", rule.free);
+                }
+            }
+            let options = Options { mode: Some(Mode::Probability), unknown: Some(1), ..Options::default() };
+            let map = read_with(&folder, "image.png", rule, &options);
+            for (pixel, &p) in pixels.iter().zip(probabilities(&map)) {
+                let ([r, g, b, a], white) = kind.meant(pixel);
+                let shade = f64::from(r + g + b) / f64::from(3 * white);
+                let expected = if a < white || r + g + b == 3 {
+                    0.5
+                } else if rule.negate {
+                    shade
+                } else {
+                    1.0 - shade
+                };
+                assert!((p - expected).abs() < 1e-15, "{kind:?} {pixel:?} {p} {expected}");
+                assert_eq!(p == 0.5, expected == 0.5, "{kind:?} {pixel:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn interlaced_images_hold_the_same_cells() {
+    // The encoder does not interlace: this is a 5 x 3 image of 8-bit greys in Adam7, its passes written out by hand.
+    let greys: [[u8; 5]; 3] = [[0, 10, 20, 30, 40], [50, 60, 70, 80, 90], [100, 205, 254, 255, 128]];
+    let mut data = Vec::new();
+    for (x0, y0, dx, dy) in
+        [(0, 0, 8, 8), (4, 0, 8, 8), (0, 4, 4, 8), (2, 0, 4, 4), (0, 2, 2, 4), (1, 0, 2, 2), (0, 1, 1, 2)]
+    {
+        for row in greys.iter().skip(y0).step_by(dy) {
+            let mut samples = row.iter().skip(x0).step_by(dx).peekable();
+            if samples.peek().is_some() {
+                data.push(0);
+                data.extend(samples);
+            }
+        }
+    }
+    let image = raw_png(5, 3, 8, 0, 1, &[("IDAT", zlib(&data))]);
+    let folder = Folder::new();
+    folder.write("image.png", image);
+    let options = Options { mode: Some(Mode::Probability), ..Options::default() };
+    let map = read_with(&folder, "image.png", rules()[0], &options);
+    let expected: Vec<f64> =
+        in_grid_order(&greys.concat(), 5).iter().map(|&grey| f64::from(255 - grey) / 255.0).collect();
+    assert_eq!(probabilities(&map), expected);
+}
+
+#[test]
+fn pgm_of_every_depth_plain_and_raw() {
+    let mut random = Random::new(7);
+    let folder = Folder::new();
+    for max in [1, 15, 100, 255, 256, 1000, 65535] {
+        let samples: Vec<u16> = (0..11 * 13)
+            .map(|k| if k < 2 { k * max } else { random.below(u32::from(max) + 1) as u16 })
+            .collect();
+        let plain: Vec<String> =
+            samples.chunks(5).map(|row| format!("{row:?}").replace(['[', ']', ','], " ")).collect();
+        let plain = format!("P2 # plain\n#\n11#w\n 13 {max}\n{} # end", plain.join("# five\n"));
+        folder.write("raw.pgm", pgm(11, 13, max, &samples));
+        folder.write("plain.pgm", plain);
+        let ordered = in_grid_order(&samples, 11);
+        for image in ["raw.pgm", "plain.pgm"] {
+            let options =
+                Options { mode: Some(Mode::Probability), unknown: Some(max / 2), ..Options::default() };
+            let map = read_with(&folder, image, rules()[0], &options);
+            for (&grey, &p) in ordered.iter().zip(probabilities(&map)) {
+                let expected = if grey == max / 2 { 0.5 } else { f64::from(max - grey) / f64::from(max) };
+                assert_eq!(p, expected, "{image} of {max}, {grey}");
+            }
+            for semantics in [Semantics::Nav2, Semantics::Ros1] {
+                let options = Options { semantics, mode: Some(Mode::Scale), ..Options::default() };
+                let map = read_with(&folder, image, rules()[1], &options);
+                let expected: Vec<i8> = ordered
+                    .iter()
+                    .map(|&grey| {
+                        let level = u32::from(grey) * 255 / u32::from(max);
+                        match semantics {
+                            Semantics::Nav2 => rules()[1].nav2(Mode::Scale, [level, level, level, 255], 255),
+                            Semantics::Ros1 => rules()[1].ros1(Mode::Scale, &[level as u8], false),
+                        }
+                    })
+                    .collect();
+                assert_eq!(percents(&map), expected, "{image} of {max} {semantics:?}");
+                let doubted = match semantics {
+                    Semantics::Nav2 => ![255, 65535].contains(&max),
+                    Semantics::Ros1 => max > 255,
+                };
+                assert_eq!(
+                    map.warnings.iter().any(|w| w.contains("maximum value")),
+                    doubted,
+                    "{max} {semantics:?}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_palette_is_read_as_indices_by_ros1_and_this_is_said() {
+    let folder = Folder::new();
+    let palette = vec![200, 200, 200, 7, 8, 9];
+    let data = zlib(&[0, 0b0100_0000]);
+    folder.write("image.png", raw_png(3, 1, 1, 3, 0, &[("PLTE", palette), ("IDAT", data)]));
+    let options = Options { semantics: Semantics::Ros1, mode: Some(Mode::Raw), ..Options::default() };
+    let map = read_with(&folder, "image.png", rules()[0], &options);
+    assert_eq!(percents(&map), [0, 1, 0]);
+    assert!(map.warnings[0].contains("palette"), "{:?}", map.warnings);
+    let map =
+        read_with(&folder, "image.png", rules()[0], &Options { mode: Some(Mode::Raw), ..Options::default() });
+    assert_eq!(percents(&map), [-1, 7, -1]);
+}
+
+#[test]
+fn warnings_count_cells_not_levels() {
+    let folder = Folder::new();
+    let mut samples = vec![205; 17];
+    samples.extend([0, 100, 101, 254, 255]);
+    folder.write("image.pgm", pgm(11, 2, 255, &samples));
+    let free = Rule { free: 0.25, occupied: 0.65, negate: false };
+    for semantics in [Semantics::Nav2, Semantics::Ros1] {
+        for (mode, expected) in [
+            (Mode::Trinary, "17 cells of grey 205"),
+            (Mode::Scale, "17 cells of grey 205"),
+            (Mode::Raw, "19 cells outside"),
+        ] {
+            let options = Options { semantics, mode: Some(mode), ..Options::default() };
+            let map = read_with(&folder, "image.pgm", free, &options);
+            assert_eq!(map.warnings.len(), 1, "{mode:?} {:?}", map.warnings);
+            assert!(map.warnings[0].starts_with(expected), "{mode:?} {:?}", map.warnings);
+        }
+        let options = Options { semantics, ..Options::default() };
+        let map = read_with(&folder, "image.pgm", rules()[0], &options);
+        assert_eq!(map.warnings, [""; 0]);
+    }
+}
+
+#[test]
+fn yaml_spellings() {
+    let folder = Folder::new();
+    folder.write("image.pgm", pgm(3, 2, 255, &[0, 255, 205, 10, 20, 30]));
+    let read = |text: String| maps::read(&folder.write("map.yml", text), &Options::default());
+    let plain = read(yaml("image.pgm", "negate: 0\n")).unwrap();
+    assert_eq!(plain.resolution, Some(0.05));
+    assert_eq!(percents(&plain), [100, 100, 100, 100, 0, -1]);
+    let geometry = match &plain.cells {
+        maps::Cells::Percent(grid) => *grid.geometry(),
+        other => panic!("{other:?}"),
+    };
+    assert_eq!((geometry.origin(), geometry.yaw()), ([-3.5, 2.25], 0.125));
+
+    let absolute = folder.path("image.pgm").display().to_string();
+    for (image, more) in [
+        (Cow::from("\"image.pgm\""), "negate: false\n"),
+        ("./image.pgm".into(), "negate: No\nmode: Trinary\n"),
+        (
+            absolute.into(),
+            "negate: off # not\nmode: 'TRINARY'\nmap_type: {a: [1, {b: c}], 2: 3}\n? [x, y]\n: z\n",
+        ),
+        ("image.pgm".into(), "negate: !!int 0\nunknown_key:\n  - 1\n  - deep: [2]\n"),
+    ] {
+        let text = yaml(&image, more);
+        let map = read(text.clone()).unwrap_or_else(|problem| panic!("{text}{problem}"));
+        assert_eq!(percents(&map), percents(&plain), "{text}");
+    }
+    let negated = read(yaml("image.pgm", "negate: Yes")).unwrap();
+    assert_eq!(percents(&negated), [0, 0, 0, 0, 100, 100]);
+    let scaled = read(yaml("image.pgm", "negate: 0\nmode: Scale")).unwrap();
+    assert_eq!(percents(&scaled), [100, 100, 100, 100, 0, 0]);
+    let flow = "{image: image.pgm, resolution: 5e-2, origin: [-3.5, +2.25, 125.0e-3], negate: 0, occupied_thresh: .65, free_thresh: 0.196}";
+    assert_eq!(percents(&read(flow.to_owned()).unwrap()), percents(&plain));
+}

@@ -1,0 +1,154 @@
+//! The committed seeds of the fuzz targets, replayed on their properties.
+
+use crate::gridmaps::{GridMap, gzip};
+use crate::png_bytes::{raw_png, zlib};
+use crate::support::{npy, pgm, yaml};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+// There the functions are public, here they are a module of a test.
+#[allow(unreachable_pub)]
+#[path = "../../../fuzz/src/lib.rs"]
+mod properties;
+
+type Target = (&'static str, fn(&[u8]), fn() -> Vec<(&'static str, Vec<u8>)>);
+
+const TARGETS: [Target; 6] = [
+    ("yaml", properties::yaml, yaml_seeds),
+    ("pgm", properties::pgm, pgm_seeds),
+    ("png", properties::png, png_seeds),
+    ("npy", properties::npy, npy_seeds),
+    ("gridmap", properties::gridmap, gridmap_seeds),
+    ("grid", properties::grid, grid_seeds),
+];
+
+fn folder(target: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../fuzz/seeds").join(target)
+}
+
+#[test]
+fn every_seed_keeps_the_properties() {
+    for (target, property, seeds) in TARGETS {
+        let files: Vec<_> = fs::read_dir(folder(target)).unwrap().map(|file| file.unwrap().path()).collect();
+        assert!(files.len() >= seeds().len(), "seeds of {target} are missing: run write_the_seeds");
+        for file in files {
+            println!("{}", file.display());
+            property(&fs::read(file).unwrap());
+        }
+    }
+}
+
+/// `cargo test -p mean-information-cli --test maps -- --ignored write_the_seeds` makes the seeds again.
+#[test]
+#[ignore = "writes fuzz/seeds"]
+fn write_the_seeds() {
+    for (target, _, seeds) in TARGETS {
+        fs::create_dir_all(folder(target)).unwrap();
+        for (name, bytes) in seeds() {
+            fs::write(folder(target).join(name), bytes).unwrap();
+        }
+    }
+}
+
+fn yaml_seeds() -> Vec<(&'static str, Vec<u8>)> {
+    [
+        ("plain", yaml("map.pgm", "negate: 0\n")),
+        ("everything", yaml("\"map.png\"", "negate: true # white\nmode: Scale\nmap_type: {a: [1, {b: c}]}\n? [x, y]\n: |\n  z\n")),
+        ("flow", "{image: m, resolution: 5e-2, origin: [-3.5, 2, .5], negate: 0, occupied_thresh: 1, free_thresh: 0}".to_owned()),
+        ("bomb", yaml("map.pgm", "negate: 0\na: &a [x, x]\nb: &b [*a, *a]\nc: [*b, *b]\n")),
+        ("documents", format!("%YAML 1.2\n---\n{}...\n---\n- 7\n", yaml("map.pgm", "negate: 0\n"))),
+    ]
+    .map(|(name, text)| (name, text.into_bytes()))
+    .to_vec()
+}
+
+fn pgm_seeds() -> Vec<(&'static str, Vec<u8>)> {
+    vec![
+        ("raw", pgm(3, 2, 255, &[0, 205, 254, 255, 100, 127])),
+        ("raw_of_100", pgm(3, 2, 100, &[0, 20, 25, 100, 99, 50])),
+        ("raw_of_16_bits", pgm(3, 2, 65535, &[0, 205, 65535, 32768, 100, 127])),
+        ("plain", b"P2 # a comment\n3 2\n255\n0 205 254 # grey\n255 100 127\n".to_vec()),
+        ("claims_more", b"P5 200 300 255\n0123456789".to_vec()),
+    ]
+}
+
+fn png_seeds() -> Vec<(&'static str, Vec<u8>)> {
+    let idat = |data: &[u8]| ("IDAT", zlib(data));
+    vec![
+        ("grey", raw_png(3, 2, 8, 0, 0, &[idat(&[0, 0, 205, 254, 1, 255, 100, 127])])),
+        (
+            "grey_of_2_bits",
+            raw_png(3, 2, 2, 0, 0, &[("tRNS", vec![0, 2]), idat(&[0, 0b0001_1000, 0, 0b1110_0100])]),
+        ),
+        ("grey_of_16_bits", raw_png(1, 2, 16, 0, 0, &[idat(&[0, 205, 205, 2, 1, 7])])),
+        ("grey_alpha", raw_png(2, 1, 8, 4, 0, &[idat(&[0, 205, 255, 7, 254])])),
+        (
+            "rgb",
+            raw_png(2, 1, 8, 2, 0, &[("tRNS", vec![0, 1, 0, 2, 0, 3]), idat(&[0, 1, 2, 3, 200, 100, 50])]),
+        ),
+        ("rgba", raw_png(2, 1, 8, 6, 0, &[idat(&[4, 1, 2, 3, 255, 200, 100, 50, 0])])),
+        (
+            "palette",
+            raw_png(
+                3,
+                1,
+                1,
+                3,
+                0,
+                &[("PLTE", vec![9, 8, 7, 200, 200, 200]), ("tRNS", vec![0]), idat(&[0, 0b0100_0000])],
+            ),
+        ),
+        ("palette_missing", raw_png(2, 1, 2, 3, 0, &[idat(&[0, 0b0110_0000])])),
+        ("interlaced", raw_png(2, 2, 8, 0, 1, &[idat(&[0, 1, 0, 2, 0, 3, 4])])),
+        ("claims_more", raw_png(1 << 31, 1 << 31, 8, 0, 0, &[idat(&[0, 1, 2])])),
+    ]
+}
+
+fn npy_seeds() -> Vec<(&'static str, Vec<u8>)> {
+    let doubles: Vec<u8> = [0.25, 0.5, 1.0, 0.0].into_iter().flat_map(f64::to_le_bytes).collect();
+    let floats: Vec<u8> = [0.25_f32, 0.5, f32::NAN, 1.5].into_iter().flat_map(f32::to_be_bytes).collect();
+    vec![
+        ("doubles", npy("'<f8'", false, "(2, 2)", &doubles)),
+        ("floats_by_columns", npy("'>f4'", true, "(1, 4)", &floats)),
+        ("bytes", npy("'|i1'", false, "(2L, 3L)", &[0, 100, 255, 50, 7, 128])),
+        ("records", npy("[('p', '<f8')]", false, "(2, 2)", &doubles)),
+        ("three_dimensions", npy("'<f8'", false, "(2, 1, 2)", &doubles)),
+        ("claims_more", npy("'<f8'", false, "(18446744073709551615, 2)", &doubles)),
+    ]
+}
+
+fn gridmap_seeds() -> Vec<(&'static str, Vec<u8>)> {
+    let small = GridMap::small().bytes();
+    let mut old = small.clone();
+    old[32] = 2;
+    vec![
+        ("plain", small.clone()),
+        ("version_2", old),
+        ("zipped", gzip(&small)),
+        ("cut", small[..57].to_vec()),
+    ]
+}
+
+/// Log-odds such as -5.05e-15, at which two logarithms gave an entropy above 1.
+#[rustfmt::skip]
+const NEAR_UNKNOWN: [u8; 34] = [
+    5, 3, 2, 1, 0, 3, 188, 251, 3, 188, 188, 246, 188, 251, 3, 188, 188, 246, 0, 0, 4, 3, 253, 2, 2, 0, 0, 0, 4, 3, 253, 2, 2, 0,
+];
+
+fn grid_seeds() -> Vec<(&'static str, Vec<u8>)> {
+    let doubles = |cells: &[f64]| cells.iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<u8>>();
+    let floats = |cells: &[f32]| cells.iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<u8>>();
+    let of = |encoding: u8, cells: &[u8]| [&[encoding, 3, 2, 2, 4], cells].concat();
+    let p = [0.25, 0.5, 1.0, 1e-300, 0.5000000000000001, 0.9999999999999999];
+    let l = [f64::INFINITY, f64::NEG_INFINITY, 0.0, -37.5, 1e-200, 2.0];
+    vec![
+        ("percent", of(0, &[0, 100, 255, 50, 7, 93])),
+        ("mrpt", of(1, &[128, 129, 255, 0, 1, 127])),
+        ("probability_f32", of(2, &floats(&p.map(|p| p as f32)))),
+        ("probability_f64", of(3, &doubles(&p))),
+        ("log_odds_f32", of(4, &floats(&l.map(|l| l as f32)))),
+        ("log_odds_f64", of(5, &doubles(&l))),
+        ("log_odds_near_unknown", NEAR_UNKNOWN.to_vec()),
+        ("bad", of(3, &doubles(&[0.25, f64::NAN, 2.0]))),
+    ]
+}

@@ -1,0 +1,153 @@
+//! `meaninfo sweep`: pooled here a second time, and drawn.
+
+mod common;
+
+use common::*;
+use serde_json::Value;
+
+const ROW_KEYS: [&str; 11] = [
+    "k",
+    "resolution_m",
+    "width",
+    "height",
+    "observed",
+    "mean_information",
+    "mean_information_hex",
+    "information_bits",
+    "information_bits_hex",
+    "entropy_bits",
+    "entropy_bits_hex",
+];
+
+/// The mean occupancies of the k x k blocks from the lower left corner; ragged ones over the cells they hold.
+fn pooled(p: &[f64], width: usize, k: usize) -> Vec<f64> {
+    let height = p.len() / width;
+    let at = |row: usize, column: usize| p[(height - 1 - row) * width + column];
+    let mut means = Vec::new();
+    for top in (0..height).step_by(k) {
+        for left in (0..width).step_by(k) {
+            let rows = top..(top + k).min(height);
+            let cells: Vec<f64> =
+                rows.flat_map(|y| (left..(left + k).min(width)).map(move |x| at(y, x))).collect();
+            means.push(cells.iter().sum::<f64>() / cells.len() as f64);
+        }
+    }
+    means
+}
+
+#[test]
+fn rows_are_the_measures_of_pooled_maps() {
+    let folder = Folder::new();
+    let map = folder.ros_map("room", 5, &GREYS, "scale");
+    let text = stdout(&["sweep", &map, "--format", "json"]);
+    assert_eq!(keys(&text, 2), ["map", "rows", "warnings"]);
+    assert_eq!(keys(&text, 6), ROW_KEYS.repeat(4));
+    let json: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(json["map"], map.as_str());
+    let rows = json["rows"].as_array().unwrap();
+    let sizes = [(1, 5, 3), (2, 3, 2), (4, 2, 1), (8, 1, 1)];
+    assert_eq!(rows.len(), sizes.len());
+    for (row, (k, width, height)) in rows.iter().zip(sizes) {
+        let p = pooled(&occupancies(&GREYS), 5, k);
+        let known: Vec<f64> = p.iter().copied().filter(|p| (p - 0.5).abs() > 1e-12).collect();
+        let information: f64 = known.iter().map(|&p| 1.0 - entropy(p)).sum();
+        assert_eq!(
+            [&row["k"], &row["width"], &row["height"], &row["observed"]],
+            [k, width, height, known.len()].map(Value::from).each_ref()
+        );
+        assert_near(&row["resolution_m"], 0.2 * k as f64);
+        assert_near(&row["mean_information"], information / known.len() as f64);
+        assert_near(&row["information_bits"], information);
+        assert_near(&row["entropy_bits"], p.iter().map(|&p| entropy(p)).sum());
+        assert_twins(row, 3);
+    }
+}
+
+#[test]
+fn csv_and_table_say_the_same_as_json() {
+    let folder = Folder::new();
+    let map = folder.ros_map("room", 5, &GREYS, "scale");
+    let json: Value = serde_json::from_str(&stdout(&["sweep", &map, "--format", "json"])).unwrap();
+    let csv_text = stdout(&["sweep", &map, "--format", "csv"]);
+    let mut csv = csv::Reader::from_reader(csv_text.as_bytes());
+    let header: Vec<_> = csv.headers().unwrap().iter().map(str::to_owned).collect();
+    assert_eq!(header[1..12], ROW_KEYS);
+    assert_eq!((&*header[0], &*header[12]), ("map", "warnings"));
+    let table = stdout(&["sweep", &map]);
+    for (row, object) in csv.records().map(Result::unwrap).zip(json["rows"].as_array().unwrap()) {
+        for (field, key) in row.iter().zip(&header).skip(1).take(11) {
+            match &object[key] {
+                Value::Number(number) => assert_eq!(field.parse::<f64>().ok(), number.as_f64(), "{key}"),
+                other => assert_eq!(Some(field), other.as_str(), "{key}"),
+            }
+        }
+        assert!(table.contains(&object["mean_information"].to_string()), "{table}");
+    }
+}
+
+#[test]
+fn a_map_of_one_cell_and_one_of_unknown_cells() {
+    let folder = Folder::new();
+    let one = folder.ros_map("one", 1, &[30], "scale");
+    let unknown = folder.ros_map("unknown", 3, &[205; 6], "trinary");
+    for (map, steps) in [(one, 1), (unknown, 3)] {
+        let json: Value = serde_json::from_str(&stdout(&["sweep", &map, "--format", "json"])).unwrap();
+        assert_eq!(json["rows"].as_array().unwrap().len(), steps);
+        for picture in ["plot.svg", "plot.png"] {
+            stdout(&["sweep", &map, "--plot", &folder.text_path(picture)]);
+        }
+    }
+    let warned = stdout(&["sweep", &folder.text_path("unknown.yaml")]);
+    assert!(warned.contains("nothing observed") && warned.contains("none"), "{warned}");
+}
+
+#[test]
+fn the_svg_is_well_formed_and_its_text_is_text() {
+    let folder = Folder::new();
+    let map = folder.ros_map("a <b> & \"c\"", 5, &GREYS, "scale");
+    let plot = folder.text_path("plot.svg");
+    let draw = || {
+        stdout(&["sweep", &map, "--plot", &plot]);
+        read(&plot)
+    };
+    let svg = draw();
+    assert_eq!(svg, draw());
+    let document = roxmltree::Document::parse(text(&svg)).unwrap();
+    let texts: Vec<_> =
+        document.descendants().filter(|n| n.has_tag_name("text")).filter_map(|n| n.text()).collect();
+    let texts: Vec<_> = texts.iter().map(|text| text.trim()).collect();
+    for expected in [
+        "cell size (m)",
+        "total entropy (bits)",
+        "mean information (bits / cell)",
+        "0.2",
+        "0.4",
+        "0.8",
+        "1.6",
+    ] {
+        assert!(texts.contains(&expected), "{expected} in {texts:?}");
+    }
+    assert!(texts.iter().any(|text| text.starts_with("a <b> & \"c\".yaml")), "{texts:?}");
+}
+
+#[test]
+fn the_png_has_both_curves_and_the_same_bytes_on_every_run() {
+    let folder = Folder::new();
+    let map = folder.ros_map("room", 5, &GREYS, "scale");
+    let plot = folder.text_path("plot.png");
+    let draw = || {
+        stdout(&["sweep", &map, "--plot", &plot]);
+        read(&plot)
+    };
+    let png = draw();
+    assert_eq!(png, draw());
+    let image = Pixels::of_png(&png);
+    let half = image.height / 2;
+    let pixels = |colour: [u8; 3], rows: std::ops::Range<u32>| {
+        rows.flat_map(|y| (0..image.width).map(move |x| (x, y)))
+            .filter(|&(x, y)| image.at(x, y) == colour)
+            .count()
+    };
+    assert!(pixels([0, 90, 170], 0..half) > 500 && pixels([0, 90, 170], half..image.height) == 0);
+    assert!(pixels([190, 75, 0], half..image.height) > 500 && pixels([190, 75, 0], 0..half) == 0);
+}

@@ -1,0 +1,77 @@
+//! Bad requests: one line on stderr, nothing on stdout, exit status 2. Help and the version are no errors.
+
+mod common;
+
+use common::*;
+
+#[test]
+fn help_and_version_are_done() {
+    assert!(stdout(&["--help"]).contains("sweep"));
+    assert!(stdout(&["--version"]).starts_with("meaninfo "));
+    let help = stdout(&["map", "--help"]);
+    for option in [
+        "--format",
+        "--output",
+        "--semantics",
+        "--mode",
+        "--unknown",
+        "--encoding",
+        "--heat-map",
+        "--resolution",
+        "--max-cells",
+        "1073741824",
+    ] {
+        assert!(help.contains(option), "{option}");
+    }
+    assert!(stdout(&["sweep", "--help"]).contains("--plot"));
+}
+
+#[test]
+fn usage_errors_are_one_line() {
+    let folder = Folder::new();
+    let map = folder.ros_map("room", 5, &GREYS, "scale");
+    let map = map.as_str();
+    for (arguments, what) in [
+        (&[][..], "subcommand"),
+        (&["paint"], "'paint'"),
+        (&["map"], "<FILE>"),
+        (&["map", map, "--fromat", "json"], "'--format'"),
+        (&["map", map, "--format", "xml"], "table, json, csv"),
+        (&["map", map, "--semantics", "ros3"], "nav2, ros1"),
+        (&["map", map, "--unknown", "65536"], "65535"),
+        (&["map", map, "--unknown", "127"], "--mode probability"),
+        (&["map", map, "--resolution", "0"], "positive"),
+        (&["map", map, "--resolution", "nan"], "positive"),
+        (&["map", map, "--resolution", "inf"], "positive"),
+        (&["map", map, "--max-cells", "-3"], "-3"),
+        (&["map", map, "--heat-map", "a.svg"], ".png"),
+        (&["map", map, map, "--heat-map", "a.png"], "one map"),
+        (&["sweep", map, map], "unexpected"),
+        (&["sweep", map, "--plot", "a.pdf"], ".svg or .png"),
+        (&["sweep", map, "--plot", "svg"], ".svg or .png"),
+        (&["map", map, "--format", "two\nlines"], "two"),
+    ] {
+        let line = refusal(arguments);
+        assert!(line.contains(what) && !line.contains("Usage:"), "{arguments:?}: {line}");
+    }
+    assert_eq!(folder.names(), ["room.pgm", "room.yaml"]);
+}
+
+#[test]
+fn a_file_that_cannot_be_read_is_named() {
+    let folder = Folder::new();
+    let good = folder.ros_map("room", 5, &GREYS, "scale");
+    let missing = folder.text_path("missing.yaml");
+    for arguments in [&["map", &missing][..], &["map", &good, &missing], &["sweep", &missing]] {
+        let line = refusal(arguments);
+        assert!(line.starts_with(&format!("meaninfo: {missing}: ")), "{line}");
+    }
+}
+
+#[test]
+fn a_map_with_too_many_cells_is_refused() {
+    let folder = Folder::new();
+    let map = folder.ros_map("room", 5, &GREYS, "scale");
+    refusal(&["map", &map, "--max-cells", "14"]);
+    stdout(&["map", &map, "--max-cells", "15"]);
+}

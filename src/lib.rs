@@ -77,3 +77,8 @@ pub mod book {
     #[doc = include_str!("../docs/guarantees.md")]
     pub mod guarantees {}
 }
+
+/// The examples of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;

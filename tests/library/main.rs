@@ -2,6 +2,7 @@
 
 mod cell;
 mod common;
+mod digest;
 mod guarantees;
 mod map;
 mod tally;

@@ -1,0 +1,64 @@
+//! A digest of a million results in both formats: the same number on every platform and in every build.
+
+use mean_information::cell::{
+    entropy, entropy_from_log_odds, information, information_from_log_odds, occupancy_from_log_odds,
+};
+use mean_information::{Real, Tally, cell::Cell};
+
+/// The digest, everywhere. If it changes, results changed: say so in CHANGELOG.md.
+pub(crate) const DIGEST: u64 = 0xf5ce_bf6c_339c_b4aa;
+
+/// FNV-1a over the bits of every result.
+struct Digest(u64);
+
+impl Digest {
+    fn update<T: Real>(&mut self, result: T) {
+        for byte in result.widen().to_bits().to_le_bytes() {
+            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+    }
+}
+
+/// Xorshift: 64 fresh bits.
+fn next(state: &mut u64) -> u64 {
+    *state ^= *state << 13;
+    *state ^= *state >> 7;
+    *state ^= *state << 17;
+    *state
+}
+
+/// The digest of about a million results.
+pub(crate) fn digest() -> u64 {
+    let (mut digest, mut tally) = (Digest(0xcbf2_9ce4_8422_2325), Tally::new());
+    let mut state = 0x9e37_79b9_7f4a_7c15;
+    for _ in 0..50_000 {
+        let bits = next(&mut state);
+        let uniform = (bits >> 11) as f64 / (1_u64 << 53) as f64;
+        // Evenly over the exponents: from the smallest subnormal to 1.
+        let tiny = f64::from_bits(bits % (1.0_f64.to_bits() + 1));
+        for p in [uniform, tiny] {
+            digest.update(entropy(p));
+            digest.update(information(p));
+            digest.update(entropy(p as f32));
+            digest.update(information(p as f32));
+            tally.add(Cell::from_occupancy(p).expect("in [0, 1]"));
+        }
+        // Both tails of the log-odds, and evenly over the exponents up to 2^10.
+        for l in [100.0 * (uniform - 0.5), f64::from_bits(bits % 1024.0_f64.to_bits())] {
+            digest.update(entropy_from_log_odds(l));
+            digest.update(information_from_log_odds(l));
+            digest.update(occupancy_from_log_odds(l));
+            digest.update(entropy_from_log_odds(l as f32));
+            digest.update(information_from_log_odds(l as f32));
+            digest.update(occupancy_from_log_odds(l as f32));
+        }
+    }
+    digest.update(tally.mean_information());
+    digest.update(tally.entropy());
+    digest.0
+}
+
+#[test]
+fn a_million_results_have_not_changed() {
+    assert_eq!(digest(), DIGEST);
+}

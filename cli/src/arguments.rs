@@ -37,7 +37,7 @@ pub struct Reading {
     #[arg(long, value_name = "METRES", value_parser = positive)]
     resolution: Option<f64>,
     /// Refuse a map of more cells than this before memory is taken for it (2^30 unless given).
-    #[arg(long, value_name = "N", default_value_t = 1 << 30)]
+    #[arg(long, value_name = "N", default_value_t = maps::MAX_CELLS)]
     max_cells: u64,
 }
 

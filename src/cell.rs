@@ -7,6 +7,7 @@
 use crate::error::Error;
 use crate::real::Real;
 use crate::rounded;
+use core::cmp::Ordering;
 
 /// What the map says of a cell. The paper calls a cell observed if `p != 1/2`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -17,6 +18,17 @@ pub enum State {
     Free,
     /// Observed, `p > 1/2`.
     Occupied,
+}
+
+impl State {
+    /// On which side of "unknown" a number lies that is not NaN.
+    fn beside<T: Real>(x: T, unknown: T) -> Self {
+        match x.partial_cmp(&unknown) {
+            Some(Ordering::Less) => Self::Free,
+            Some(Ordering::Greater) => Self::Occupied,
+            _ => Self::Unknown,
+        }
+    }
 }
 
 /// One cell as the sums over a map see it: its state, entropy and information.
@@ -50,15 +62,8 @@ impl<T: Real> Cell<T> {
         if !in_unit_interval(p) {
             return Err(Error::out_of_range("occupancy", p.widen(), "0 to 1"));
         }
-        let state = if p == T::HALF {
-            State::Unknown
-        } else if p < T::HALF {
-            State::Free
-        } else {
-            State::Occupied
-        };
         let (entropy, information) = rounded::entropy_and_information(p);
-        Ok(Self { state, entropy, information })
+        Ok(Self { state: State::beside(p, T::HALF), entropy, information })
     }
 
     /// The cell of log-odds `l` (nats); entropy and information are those of [`entropy_from_log_odds`] and
@@ -83,15 +88,8 @@ impl<T: Real> Cell<T> {
                 "any number of nats, infinities included",
             ));
         }
-        let state = if l.is_zero() {
-            State::Unknown
-        } else if l < T::zero() {
-            State::Free
-        } else {
-            State::Occupied
-        };
         let (entropy, information) = rounded::entropy_and_information_from_log_odds(l);
-        Ok(Self { state, entropy, information })
+        Ok(Self { state: State::beside(l, T::zero()), entropy, information })
     }
 
     /// Unknown, free or occupied.

@@ -10,6 +10,7 @@
 //! machine-checked.
 
 mod big;
+#[rustfmt::skip] // as `proofs/constants.sollya` writes it
 mod constants;
 mod enclose;
 mod enclosure;

@@ -1,0 +1,63 @@
+#!/bin/sh
+# Checks every machine-checked proof of src/rounded: the constants (Sollya), the bounds (Gappa), and that the scripts speak of
+# this source (cargo test --test proofs). Prints one line per proof and, last, "N passed, N failed". See proofs/README.md.
+#
+#     proofs/check.sh            every proof
+#     proofs/check.sh NAME...    only these, of the names it prints
+#
+# SOURCE_TEST replaces the last command; proofs/mutate.py uses it to build the test once.
+set -u
+cd "$(dirname "$0")/.." || exit 1
+
+for tool in sollya gappa cargo; do
+    command -v "$tool" > /dev/null || { echo "proofs/check.sh: needs $tool, which is not installed" >&2; exit 1; }
+done
+
+output=$(mktemp)
+trap 'rm -f "$output"' EXIT
+passed=0
+failed=0
+
+chosen=" $* "
+# wanted NAME: whether to check it.
+wanted() {
+    case "$chosen" in
+        "  " | *" $1 "*) return 0 ;;
+        *) return 1 ;;
+    esac
+}
+
+# verdict NAME STATUS: counts, and prints the output of a proof that failed.
+verdict() {
+    if [ "$2" -eq 0 ]; then
+        passed=$((passed + 1))
+        echo "passed $1"
+    else
+        failed=$((failed + 1))
+        echo "FAILED $1"
+        head -n 20 "$output" | sed 's/^/    /'
+    fi
+}
+
+# Sollya ends with status 3 even if all is well; what it writes must be what is committed, byte for byte.
+if wanted constants.sollya; then
+    sollya proofs/constants.sollya < /dev/null 2>&1 | diff - src/rounded/constants.rs > "$output"
+    verdict constants.sollya $?
+fi
+
+# Internal precision: integers here have up to 256 bits. A denominator is 1 plus something that is not negative.
+for script in proofs/*.gappa; do
+    wanted "$(basename "$script")" || continue
+    timeout 10 gappa -Eprecision=300 -Eno-auto-dichotomy -Wno-null-denominator "$script" > "$output" 2>&1
+    status=$?
+    [ -s "$output" ] && status=1 # a warning
+    verdict "$(basename "$script")" "$status"
+done
+
+if wanted source; then
+    ${SOURCE_TEST:-cargo test --quiet --test proofs} > "$output" 2>&1
+    verdict source $?
+fi
+
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]

@@ -1,0 +1,172 @@
+#!/usr/bin/env python3
+"""Breaks the source or a proof, one change at a time, in a copy, and shows that proofs/check.sh notices.
+
+    proofs/mutate.py
+
+A change "in both" is made in the source and in the script that quotes it, so that only the proof itself can fail; a change of
+one file must be noticed as a difference. Prints the table of proofs/README.md; ends with status 1 if a change survives.
+"""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+FIXED, ENCLOSE = "src/rounded/fixed.rs", "src/rounded/enclose.rs"
+
+
+def error_constant(name, exponent, smaller, *where):
+    """The constant `1 << exponent` made `1 << smaller` in the source and wherever a script states or assumes it."""
+    edits = [(FIXED, f"{name}: u128 = 1 << {exponent};", f"{name}: u128 = 1 << {smaller};")]
+    for script in where:
+        edits.append((f"proofs/{script}.gappa", f"{name} = 1b{exponent};", f"{name} = 1b{smaller};"))
+    for path in sorted((ROOT / "proofs").glob("*.gappa")):
+        for line in path.read_text().splitlines():
+            if line.endswith(f"# {name}"):
+                edits.append((f"proofs/{path.name}", line, line.replace(f"<= 1b{exponent}", f"<= 1b{smaller}")))
+    return edits
+
+
+def both(file, script, quotation, definition):
+    """A statement and its translation, each as (old, new)."""
+    return [(file, *quotation), (f"proofs/{script}.gappa", *quotation), (f"proofs/{script}.gappa", *definition)]
+
+
+# (what is changed, what must fail, edits as (file, old, new)).
+MUTATIONS = [
+    ("LOG_ERROR halved, in both", "log2.gappa",
+     error_constant("LOG_ERROR", 43, 42, "log2", "with_two_logarithms", "with_small_occupancy", "with_large_odds")),
+    ("LOG_1P_OVER_ERROR halved, in both", "log2_1p_over.gappa",
+     error_constant("LOG_1P_OVER_ERROR", 42, 41, "log2_1p_over", "with_small_occupancy", "with_small_odds")),
+    ("EXP_ERROR halved, in both", "exp2_neg.gappa", error_constant("EXP_ERROR", 48, 47, "exp2_neg", "occupancy")),
+    ("SERIES_ERROR halved, in both", "information_series.gappa",
+     error_constant("SERIES_ERROR", 55, 54, "information_series", "information_series_log_odds", "near_unknown")
+     + [("proofs/near_unknown.gappa", f"<= {2**55 + 1} # SERIES_ERROR + 1", f"<= {2**54 + 1} # SERIES_ERROR + 1")]),
+    ("log2_1p: z_q >> 62, in both", "log2.gappa",
+     both(FIXED, "log2", ("&LOG_Q, z, 71))) >> 63", "&LOG_Q, z, 71))) >> 62"),
+          ("z * horner_LOG_Q * 1b-63", "z * horner_LOG_Q * 1b-62"))),
+    ("log2_1p: the low half of 1 / ln 2 dropped, in both", "log2.gappa",
+     both(FIXED, "log2", ("z * high + ((z * low) >> 64) + ((z * z_q) >> 8)", "z * high + ((z * z_q) >> 8)"),
+          ("z * high + floor(z * low * 1b-64) + floor(z * z_q * 1b-8)", "z * high + floor(z * z_q * 1b-8)"))),
+    ("exp2_neg: Horner's rule at scale 70, in both", "exp2_neg.gappa",
+     both(FIXED, "exp2_neg", ("&EXP_R, g_71, 71)", "&EXP_R, g_71, 70)"), ("g_71 * 1b-71", "g_71 * 1b-70"))),
+    ("exp2_neg: g << 11, in both", "exp2_neg.gappa",
+     both(FIXED, "exp2_neg", ("mul_high(g << 12, slope)", "mul_high(g << 11, slope)"),
+          ("floor(g * 1b12 * slope", "floor(g * 1b11 * slope"))),
+    ("exp2_neg: g cut to 60 bits, in both", "exp2_neg.gappa",
+     both(FIXED, "exp2_neg", ("let g_71 = (g >> 45) as i64", "let g_71 = (g >> 48 << 3) as i64"),
+          ("g_71 = floor(g * 1b-45);", "g_71 = floor(g * 1b-48) * 1b3;"))),
+    ("information_series: u V >> 11, in both", "information_series.gappa",
+     both(FIXED, "information_series", ("&INFO_V, u, 71))) >> 10", "&INFO_V, u, 71))) >> 11"),
+          ("floor(u * horner_INFO_V * 1b-10)", "floor(u * horner_INFO_V * 1b-11)"))),
+    ("information_series_log_odds: + u W, in both", "information_series_log_odds.gappa",
+     both(FIXED, "information_series_log_odds", ("EIGHTH_INV_LN2 - ((", "EIGHTH_INV_LN2 + (("),
+          ("EIGHTH_INV_LN2 - floor", "EIGHTH_INV_LN2 + floor"))),
+    ("reciprocal: 8 bits of the correction's factor cut, in both", "reciprocal.gappa",
+     both(FIXED, "reciprocal", ("((first >> 2) as i128 * residual) >> 61", "((first >> 8) as i128 * residual) >> 55"),
+          ("correction = floor(floor(first * 1b-2) * residual * 1b-61)",
+           "correction = floor(floor(first * 1b-8) * residual * 1b-55)"))
+     + [("proofs/reciprocal.gappa", "    (correction - floor(first * 1b-2) * residual * 1b-61)\n    + (floor(first * 1b-2) - first * 1b-2) * residual * 1b-61",
+         "    (correction - floor(first * 1b-8) * residual * 1b-55)\n    + (floor(first * 1b-8) - first * 1b-8) * residual * 1b-55")]),
+    ("with_two_logarithms: + 1 for two floors, in both", "with_two_logarithms.gappa",
+     both(ENCLOSE, "with_two_logarithms", ("complements(entropy, LOG_ERROR + 2)", "complements(entropy, LOG_ERROR + 1)"),
+          ("error = LOG_ERROR + 2;", "error = LOG_ERROR + 1;"))),
+    ("near_unknown: + 1 for two floors, in both", "near_unknown.gappa",
+     both(ENCLOSE, "near_unknown", ("-120 - exponent) + 2;", "-120 - exponent) + 1;"),
+          ("two_to_exponent) + 2;", "two_to_exponent) + 1;"))),
+    ("with_small_occupancy: the factor 1 - q dropped, in both", "with_small_occupancy.gappa",
+     both(ENCLOSE, "with_small_occupancy",
+          ("let of_rest = slope - shift_right(mul_high(significand, slope), n - 53);", "let of_rest = slope + 0;"),
+          ("of_rest = slope - floor(floor(significand * slope * 1b-128) * two_to_minus_n * 1b53);", "of_rest = slope + 0;"))),
+    ("with_small_occupancy: LOG_ERROR left out, in both", "with_small_occupancy.gappa",
+     both(ENCLOSE, "with_small_occupancy", ("LOG_1P_OVER_ERROR + (LOG_ERROR >> 8) + 8", "LOG_1P_OVER_ERROR + 8"),
+          ("LOG_1P_OVER_ERROR + floor(LOG_ERROR * 1b-8) + 8", "LOG_1P_OVER_ERROR + 8"))),
+    ("from_product: + 1 for two floors, in both", "from_product.gappa",
+     both(ENCLOSE, "from_product", ("at_120(error) + 2", "at_120(error) + 1"),
+          ("information_error = at_120_error + 2;", "information_error = at_120_error + 1;"))),
+    ("with_large_odds: the correction dropped, in both", "with_large_odds.gappa",
+     both(ENCLOSE, "with_large_odds", ("let log2_w = (log2(n, 60) + correction as i128) as u128;", "let log2_w = (log2(n, 60) + 0) as u128;"),
+          ("log2_w = log2_n + correction;", "log2_w = log2_n + 0;"))),
+    ("with_large_odds: the error LOG_ERROR, in both", "with_large_odds.gappa",
+     both(ENCLOSE, "with_large_odds", ("complements(log2_w + product, 2 * LOG_ERROR)", "complements(log2_w + product, 1 * LOG_ERROR)"),
+          ("error = 2 * LOG_ERROR;", "error = 1 * LOG_ERROR;"))),
+    ("with_small_odds: value >> 80, in both", "with_small_odds.gappa",
+     both(ENCLOSE, "with_small_odds", ("(value >> 76)", "(value >> 80)"), ("floor(value * 1b-76);\n\n", "floor(value * 1b-80);\n\n"))
+     + [("proofs/with_small_odds.gappa", "1b-76", "1b-80")]),
+    ("occupancy: the error EXP_ERROR, in both", "occupancy.gappa",
+     [(file, "2 * EXP_ERROR", "1 * EXP_ERROR") for file in (ENCLOSE, "proofs/occupancy.gappa")]),
+    ("constants.sollya: Q of degree 5 instead of 6", "constants.sollya",
+     [("proofs/constants.sollya", "  q_series, 6, 63,", "  q_series, 5, 63,")]),
+    ("constants.sollya: the bound on V's error 2^-67", "constants.sollya",
+     [("proofs/constants.sollya", "[0; 2^(-8)], -66.3);", "[0; 2^(-8)], -67);")]),
+    ("constants.rs: a digit of the exponential's table", "constants.sollya",
+     [("src/rounded/constants.rs", "168308424877071660585620368034156803842", "168308424877071660585620368034156803843")]),
+    ("constants.rs and scripts: a digit of Q", "constants.sollya",
+     [(file, "2661302619267600505", "2661302619267600507")
+      for file in ("src/rounded/constants.rs", "proofs/log2.gappa", "proofs/log2_1p_over.gappa")]),
+    ("fixed.rs alone: log2_1p >> 13", "source", [(FIXED, "((z * z_q) >> 8)) >> 14", "((z * z_q) >> 8)) >> 13")]),
+    ("fixed.rs alone: LOG_ERROR halved", "source", [(FIXED, "LOG_ERROR: u128 = 1 << 43", "LOG_ERROR: u128 = 1 << 42")]),
+    ("enclose.rs alone: with_large_odds up to k = 8", "source", [(ENCLOSE, "if k < 8 {", "if k < 9 {")]),
+    ("enclosure.rs alone: the width is the error", "source",
+     [("src/rounded/enclosure.rs", "width: 2 * error,", "width: error,")]),
+    ("log2.gappa alone: the last shift 15", "source", [("proofs/log2.gappa", "1b-8)) * 1b-14);", "1b-8)) * 1b-15);")]),
+    ("log2.gappa alone: a smaller error of Q assumed", "source", [("proofs/log2.gappa", "<= 0.43528 # LOG_Q", "<= 0.3 # LOG_Q")]),
+    ("with_two_logarithms.gappa alone: half of LOG_ERROR assumed", "source",
+     [("proofs/with_two_logarithms.gappa", "exact_log2_m| <= 1b43", "exact_log2_m| <= 1b42")]),
+    ("exp2_neg.gappa alone: t's error not proved", "source", [("proofs/exp2_neg.gappa", "    |t - exact_t| <= 4 /\\\n", "")]),
+]
+
+
+def build_test():
+    """The path of the compiled tests/proofs."""
+    command = ["cargo", "test", "--test", "proofs", "--no-run", "--message-format=json"]
+    output = subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout
+    messages = [json.loads(line) for line in output.splitlines()]
+    return next(m["executable"] for m in messages if m.get("executable") and m["target"]["name"] == "proofs")
+
+
+def failures(edits, test):
+    """The names that proofs/check.sh calls FAILED in a copy with these edits; only those that read an edited file."""
+    readers = {Path(file).name for file, _, _ in edits if file.endswith(".gappa")} | {"source"}
+    if any("constants" in file for file, _, _ in edits):
+        readers.add("constants.sollya")
+    with tempfile.TemporaryDirectory() as folder:
+        for part in ("src/rounded", "proofs"):
+            shutil.copytree(ROOT / part, Path(folder) / part)
+        for file, old, new in edits:
+            path = Path(folder) / file
+            text = path.read_text()
+            if old not in text:
+                sys.exit(f"proofs/mutate.py: {file} no longer contains: {old}")
+            path.write_text(text.replace(old, new))
+        environment = {**os.environ, "SOURCE_TEST": test}
+        command = [Path(folder) / "proofs/check.sh", *(sorted(readers) if edits else [])]
+        result = subprocess.run(command, env=environment, capture_output=True, text=True)
+        return [line.removeprefix("FAILED ") for line in result.stdout.splitlines() if line.startswith("FAILED ")]
+
+
+def main():
+    test = build_test()
+    survivors = failures([], test)
+    if survivors:
+        sys.exit(f"proofs/mutate.py: fails before any change: {survivors}")
+    with ThreadPoolExecutor(2) as pool:
+        found = pool.map(lambda mutation: failures(mutation[2], test), MUTATIONS)
+        noticed = 0
+        print("| change | fails |\n|---|---|")
+        for (change, expected, _), failed in zip(MUTATIONS, found):
+            # Changed in both, the script still speaks of the source: it is the proof that fails.
+            proper = expected in failed and not (change.endswith("in both") and "source" in failed)
+            noticed += proper
+            print(f"| {change} | {', '.join(failed) or 'nothing'}{'' if proper else ' (expected ' + expected + ')'} |")
+    print(f"\n{noticed} of {len(MUTATIONS)} changes noticed")
+    sys.exit(noticed != len(MUTATIONS))
+
+
+if __name__ == "__main__":
+    main()

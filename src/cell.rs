@@ -108,7 +108,8 @@ impl<T: Real> Cell<T> {
     }
 }
 
-fn in_unit_interval<T: Real>(p: T) -> bool {
+/// Whether `p` is a probability; false for NaN.
+pub(crate) fn in_unit_interval<T: Real>(p: T) -> bool {
     p >= T::zero() && p <= T::one()
 }
 

@@ -8,7 +8,8 @@ use crate::tally::Tally;
 use core::fmt::Debug;
 use core::marker::PhantomData;
 
-/// What a stored cell means. Implement it to measure maps in a format of your own.
+/// What a stored cell means. Implement it to measure maps in a format of your own; then [`Encoding::occupancy`] must lie in
+/// `[0, 1]`, and the three methods that can be `None` must be so for the same values.
 pub trait Encoding: Copy + Debug {
     /// What is stored per cell.
     type Stored: Copy + Debug + PartialEq + Send + Sync;
@@ -62,7 +63,7 @@ impl<T: Real> Encoding for Probability<T> {
     }
 
     fn occupancy(p: T) -> Option<T> {
-        (p >= T::zero() && p <= T::one()).then_some(p)
+        cell::in_unit_interval(p).then_some(p)
     }
 }
 

@@ -42,7 +42,7 @@ impl ExactSum {
     /// Adds `x`, a number in `[0, 1]`.
     ///
     /// # Panics
-    /// If `x` is NaN or outside `[0, 1]`.
+    /// If `x` is NaN or outside `[0, 1]`, or if the sum would reach `2^78`.
     #[inline]
     pub fn add<T: Real>(&mut self, x: T) {
         self.add_many(x, 1);
@@ -51,8 +51,7 @@ impl ExactSum {
     /// Adds `x` in `[0, 1]`, `count` times, in one step.
     ///
     /// # Panics
-    /// If `x` is NaN or outside `[0, 1]`. The sum of all counts must stay below `2^78`: 16384 times as many as `count`
-    /// can say.
+    /// If `x` is NaN or outside `[0, 1]`, or if the sum would reach `2^78`.
     #[inline]
     pub fn add_many<T: Real>(&mut self, x: T, count: u64) {
         assert!(x >= T::zero() && x <= T::one(), "an exact sum takes numbers in [0, 1], not {x}");
@@ -67,6 +66,9 @@ impl ExactSum {
     }
 
     /// Adds the sum of another.
+    ///
+    /// # Panics
+    /// If the sum would reach `2^78`.
     pub fn merge(&mut self, other: &Self) {
         self.carry_into(0, other.limbs);
     }
@@ -85,6 +87,7 @@ impl ExactSum {
             *limb = sum;
             carry = first | second;
         }
+        assert!(!carry, "an exact sum stays below 2^78");
     }
 
     /// Whether the sum is above the integer `n`.

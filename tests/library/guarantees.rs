@@ -1,6 +1,7 @@
-//! The one table of tolerances, and that `docs/guarantees.md` says the same.
+//! The table of guarantees: `docs/guarantees.md` says the same, and what it cites is there.
 
 use mean_information::{Tally, cell, map};
+use std::path::Path;
 
 /// How a bound is known.
 #[derive(Clone, Copy, Debug)]
@@ -54,5 +55,9 @@ fn the_page_says_what_the_table_says() {
         assert_eq!(row[0], format!("`{}`", guarantee.function));
         assert_eq!(row[2], format!("{} ulp", guarantee.ulps));
         assert_eq!(row[3], format!("{:?}", guarantee.known).to_lowercase());
+        for cited in row[4].split('`').skip(1).step_by(2) {
+            let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(cited);
+            assert!(path.exists(), "{} cites {cited}", guarantee.function);
+        }
     }
 }

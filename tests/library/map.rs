@@ -21,29 +21,43 @@ fn map() -> impl Strategy<Value = Grid<Probability<f64>>> {
 }
 
 proptest! {
-    /// Jensen: a pooled cell informs at most as much as the mean of what it pools. The bound allows for one rounding of the mean
-    /// (`|dI| <= p |log2 p| 2^-53 <= 2^-53`) and one of each `I`.
+    /// Jensen: a pooled cell informs at most as much as the mean of what it pools, unknown cells outside the map included.
+    /// The bound allows for one rounding of the mean (`|dI| <= p |log2 p| 2^-53 <= 2^-53`) and one of each `I`.
     #[test]
     fn pooling_never_raises_information_per_area(map in map(), k in 2_usize..9) {
         let pooled = map.pooled(k)?;
+        let area = (k * k) as f64;
         for row in 0..pooled.height() {
             for column in 0..pooled.width() {
-                let rows = (row * k..((row + 1) * k).min(map.height())).collect::<Vec<_>>();
+                let rows = row * k..((row + 1) * k).min(map.height());
                 let columns = column * k..((column + 1) * k).min(map.width());
-                let block: Vec<f64> = rows
-                    .iter()
-                    .flat_map(|&r| map.row(r).unwrap()[columns.clone()].iter().copied())
-                    .collect();
-                let mean_of_information = block.iter().map(|&p| information(p)).sum::<f64>() / block.len() as f64;
+                let mut block: Vec<f64> =
+                    rows.flat_map(|r| map.row(r).unwrap()[columns.clone()].iter().copied()).collect();
+                block.resize(k * k, 0.5);
                 let p = pooled.occupancy(row, column).unwrap();
+                let mean_of_information = block.iter().map(|&p| information(p)).sum::<f64>() / area;
                 prop_assert!(information(p) <= mean_of_information * (1.0 + 1e-13) + 2.0 * f64::EPSILON);
                 if block.iter().all(|&p| p == 0.5) {
                     prop_assert_eq!(p, 0.5);
                 }
-                let mean = block.iter().sum::<f64>() / block.len() as f64;
-                prop_assert!((p - mean).abs() <= 1e-13);
+                prop_assert!((p - block.iter().sum::<f64>() / area).abs() <= 1e-13);
             }
         }
+        let (fine, coarse) = (map.tally(), pooled.tally());
+        prop_assert!(area * coarse.information() <= fine.information() * (1.0 + 1e-13) + area * coarse.cells() as f64 * 4.0 * f64::EPSILON);
+    }
+
+    #[test]
+    fn padding_with_unknown_cells_changes_no_pooled_measure(map in map(), k in 2_usize..9, right in 1_usize..9, above in 1_usize..9) {
+        let mut cells = Vec::new();
+        for row in 0..map.height() + above {
+            cells.extend_from_slice(map.row(row).unwrap_or(&[]));
+            cells.resize((row + 1) * (map.width() + right), 0.5);
+        }
+        let padded = Grid::<Probability<f64>>::new(map.width() + right, map.height() + above, geometry(), cells)?;
+        let (bare, padded) = (map.pooled(k)?.tally(), padded.pooled(k)?.tally());
+        prop_assert_eq!(bare.information().to_bits(), padded.information().to_bits());
+        prop_assert_eq!((bare.free(), bare.occupied()), (padded.free(), padded.occupied()));
     }
 
     #[test]
@@ -116,13 +130,19 @@ fn a_geometry_is_refused_with_its_reason() {
 #[test]
 fn pooling_states_its_limits() {
     let map = Grid::<Percent>::new(5, 3, geometry(), vec![20; 15]).unwrap();
-    assert!(map.pooled(0).is_err());
-    let one = map.pooled(usize::MAX).unwrap();
-    assert_eq!((one.width(), one.height(), one.cells()), (1, 1, &[0.2][..]));
+    assert!(map.pooled(0).is_err() && map.pooled((1 << 31) + 1).is_err());
+    let one = map.pooled(10).unwrap();
+    assert_eq!((one.width(), one.height(), one.cells()), (1, 1, &[0.455][..]));
+    assert!(map.pooled(1 << 20).unwrap().cells()[0] < 0.5);
+    assert_eq!(
+        map.pooled(1 << 31).unwrap().cells(),
+        [0.5],
+        "15 cells in 2^62 are below the spacing of floats"
+    );
     let coarse = map.pooled(2).unwrap();
     assert_eq!((coarse.width(), coarse.height()), (3, 2));
     assert_eq!(coarse.geometry().resolution(), 0.1);
     assert_eq!(coarse.geometry().origin(), [-3.0, 7.0]);
-    let huge = Grid::<Percent>::new(1, 1, Geometry::new(1e300, [0.0; 2]).unwrap(), vec![7]).unwrap();
-    assert!(huge.pooled(usize::MAX).is_err(), "the coarse resolution is not finite");
+    let huge = Grid::<Percent>::new(1, 1, Geometry::new(1e305, [0.0; 2]).unwrap(), vec![7]).unwrap();
+    assert!(huge.pooled(1 << 31).is_err(), "the coarse resolution is not finite");
 }

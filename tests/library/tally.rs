@@ -122,6 +122,26 @@ fn a_long_sum_of_single_precision_cells_does_not_drift() {
     assert!((drifted / term - 1.0).abs() > 0.01);
 }
 
+/// Found by the property above: the quotient has 14 bits less than the sum.
+#[test]
+fn a_mean_of_few_bits_is_rounded_once() {
+    let mut sum = ExactSum::new();
+    sum.add(power(-60));
+    assert_eq!(sum.mean::<f64>(8193).to_bits(), quotient(1, 8193).to_bits());
+    assert_eq!(sum.mean::<f64>(8193).to_bits(), 0x3b5f_ff00_07ff_c002);
+}
+
+#[test]
+#[should_panic(expected = "below 2^78")]
+fn a_sum_too_large_panics_as_documented() {
+    let mut sum = ExactSum::new();
+    sum.add_many(1.0_f64, 1 << 63);
+    for _ in 0..15 {
+        let doubled = sum.clone();
+        sum.merge(&doubled);
+    }
+}
+
 #[test]
 fn the_smallest_terms_are_kept() {
     let tiny = f64::from_bits(1);

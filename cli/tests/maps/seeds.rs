@@ -99,6 +99,10 @@ fn png_seeds() -> Vec<(&'static str, Vec<u8>)> {
             ),
         ),
         ("palette_missing", raw_png(2, 1, 2, 3, 0, &[idat(&[0, 0b0110_0000])])),
+        (
+            "palette_of_19_bytes",
+            raw_png(3, 1, 1, 3, 0, &[("PLTE", vec![7; 19]), ("tRNS", vec![0]), idat(&[0, 0b0100_0000])]),
+        ),
         ("interlaced", raw_png(2, 2, 8, 0, 1, &[idat(&[0, 1, 0, 2, 0, 3, 4])])),
         ("claims_more", raw_png(1 << 31, 1 << 31, 8, 0, 0, &[idat(&[0, 1, 2])])),
     ]

@@ -32,8 +32,14 @@ impl<R: BufRead + Seek> Png<R> {
         if info.is_animated() {
             return Err(Fault::new("is an animated PNG; allowed is a still image"));
         }
-        if info.color_type == ColorType::Indexed && info.palette.is_none() {
-            return Err(Fault::new("is a malformed PNG: its palette is missing"));
+        if info.color_type == ColorType::Indexed {
+            // The decoder relies on a palette of whole entries.
+            let bytes = info.palette.as_ref().map_or(0, |palette| palette.len());
+            if bytes % 3 != 0 || !(1..=256).contains(&(bytes / 3)) {
+                return Err(Fault::new(format!(
+                    "is a malformed PNG: its palette has {bytes} bytes, allowed are 3 for each of 1 to 256 colours"
+                )));
+            }
         }
         let transformations = match colours {
             Colours::Meant => Transformations::EXPAND,

@@ -196,3 +196,6 @@ impl Ball {
 fn compare_limbs(a: &[u64], b: &[u64]) -> Ordering {
     a.iter().rev().cmp(b.iter().rev())
 }
+
+#[cfg(test)]
+mod tests;

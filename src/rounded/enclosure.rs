@@ -87,3 +87,6 @@ fn round_integer<T: Real>(m: u128, e: i32, sticky: bool) -> T {
     let up = rest > half || rest == half && (sticky || kept & 1 == 1);
     T::from_parts(kept as u64 + u64::from(up), e + drop)
 }
+
+#[cfg(test)]
+mod tests;

@@ -122,3 +122,6 @@ pub(super) fn reciprocal(w: u128) -> u128 {
     let correction = ((first >> 2) as i128 * residual) >> 61;
     ((first << 62) as i128 + correction) as u128
 }
+
+#[cfg(test)]
+mod tests;

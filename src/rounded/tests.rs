@@ -1,0 +1,174 @@
+//! The two steps of Ziv's strategy: the enclosures hold the values, the comparison gives the same floats, and the
+//! second step is as rare as stated.
+
+use super::wide::{SCALE, Wide};
+use super::*;
+use num_bigint::BigInt;
+use std::vec::Vec;
+
+/// SplitMix64 (Steele, Lea, Flood 2014).
+pub(super) struct Random(pub(super) u64);
+
+impl Random {
+    pub(super) fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    pub(super) fn below(&mut self, n: u64) -> u64 {
+        self.next() % n
+    }
+
+    /// In `(0, 1)`.
+    fn unit(&mut self) -> f64 {
+        (self.next() >> 11 | 1) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// In `(0, 2^-k)`, `0 <= k < depth`.
+    fn shallow(&mut self, depth: u64) -> f64 {
+        self.unit() * f64::from_parts(1, -(self.below(depth) as i32))
+    }
+}
+
+/// One kind of argument, by name.
+type Kind = (&'static str, fn(&mut Random) -> f64);
+
+const OCCUPANCIES: [Kind; 5] = [
+    ("uniform", Random::unit),
+    ("near 1/2", |random| 0.5 + random.shallow(50) / 4.0),
+    ("below 1/2", |random| 0.5 - random.shallow(50) / 4.0),
+    ("near 0", |random| random.shallow(400)),
+    ("near 1", |random| 1.0 - random.shallow(45) / 2.0),
+];
+
+const LOG_ODDS: [Kind; 4] = [
+    ("up to 4", |random| 4.0 * random.unit()),
+    ("up to 40", |random| 40.0 * random.unit()),
+    ("near 0", |random| random.shallow(200)),
+    ("up to 300", |random| 300.0 * random.unit()),
+];
+
+/// `count` arguments of each kind, not special: the argument, its significand and its exponent.
+fn each(kinds: &[Kind], seed: u64, count: usize) -> impl Iterator<Item = (f64, u64, i32)> {
+    let mut random = Random(seed);
+    let drawn =
+        kinds.iter().flat_map(move |&(_, draw)| (0..count).map(|_| draw(&mut random)).collect::<Vec<_>>());
+    drawn.filter(|&x| x != 0.5 && x != 1.0).map(|x| {
+        let (m, e) = normalised(x);
+        (x, m, e)
+    })
+}
+
+fn assert_holds(enclosure: Enclosure, exact: &Wide, what: f64) {
+    let Enclosure { lo, width, exponent } = enclosure;
+    let [low, high] = [lo, lo + width].map(|end| BigInt::from(end) << (SCALE as i32 + exponent));
+    assert!(&low <= exact.bounds()[0] && exact.bounds()[1] <= &high, "{enclosure:?} at {what:e}");
+    // docs/rounding.md: the width is below 2^-13 of the spacing of `f64`.
+    assert!(width < lo >> 65, "{enclosure:?} at {what:e}");
+}
+
+#[test]
+fn the_enclosures_hold_the_values() {
+    for (p, m, e) in each(&OCCUPANCIES, 31, 50) {
+        let (entropy, information) = enclose::from_occupancy(m, e);
+        let exact = wide::from_occupancy(&Wide::dyadic(m, e));
+        assert_holds(entropy, &exact[0], p);
+        assert_holds(information, &exact[1], p);
+    }
+    for (l, m, e) in each(&LOG_ODDS, 37, 50) {
+        let (entropy, information) = enclose::from_log_odds(m, e);
+        let exact = wide::from_log_odds(&Wide::dyadic(m, e));
+        assert_holds(entropy, &exact[0], l);
+        assert_holds(information, &exact[1], l);
+        assert_holds(enclose::occupancy(m, e, false), &exact[2], l);
+        assert_holds(enclose::occupancy(m, e, true), &exact[3], l);
+    }
+}
+
+/// The comparison alone: the value is above the midpoint below `result`, and not above the midpoint above it.
+fn assert_parted<T: Real>(result: T, x: f64, is_above: impl Fn(Midpoint) -> bool) {
+    let (m, e) = result.parts();
+    if result < T::one() {
+        assert!(!is_above(Midpoint { m: 2 * m + 1, exponent: e - 1 }), "{result:e} at {x:e}");
+    }
+    if m > 0 {
+        // The spacing below a power of two is half the spacing above, down to the smallest normal number.
+        let narrow = m == 1 << (T::PRECISION - 1) && e > T::MIN_EXPONENT;
+        let (m, exponent) = if narrow { (4 * m - 1, e - 2) } else { (2 * m - 1, e - 1) };
+        assert!(is_above(Midpoint { m, exponent }), "{result:e} at {x:e}");
+    }
+}
+
+fn comparison_agrees<T: Real>(count: usize) {
+    for (p, ..) in each(&OCCUPANCIES, 41, count) {
+        let p = T::nearest(p);
+        if p == T::HALF || p == T::one() || p.is_zero() {
+            continue;
+        }
+        let (m, e) = normalised(p);
+        let (entropy, information) = entropy_and_information(p);
+        assert_parted(entropy, p.widen(), |midpoint| exact::entropy(m, e, midpoint));
+        assert_parted(information, p.widen(), |midpoint| exact::information(m, e, midpoint));
+    }
+    for (l, ..) in each(&LOG_ODDS, 43, count) {
+        let l = T::nearest(l);
+        if T::PRECISION == 24 && l.widen() > 100.0 {
+            // Results are 0 with no midpoint near; relative to them, a ball could not hold the first one.
+            continue;
+        }
+        let (m, e) = normalised(l);
+        let (entropy, information) = entropy_and_information_from_log_odds(l);
+        assert_parted(entropy, l.widen(), |midpoint| exact::entropy_from_log_odds(m, e, midpoint));
+        assert_parted(information, l.widen(), |midpoint| exact::information_from_log_odds(m, e, midpoint));
+        for (l, negative) in [(l, false), (-l, true)] {
+            let is_above = |midpoint| exact::occupancy(m, e, negative, midpoint);
+            assert_parted(occupancy_from_log_odds(l), l.widen(), is_above);
+        }
+    }
+}
+
+#[test]
+fn the_comparison_alone_agrees_with_both_steps() {
+    comparison_agrees::<f64>(100);
+    comparison_agrees::<f32>(50);
+}
+
+/// Subnormal results: the midpoints are few and the comparison sees them at other scales.
+#[test]
+fn the_comparison_agrees_on_subnormal_results() {
+    for l in [709.0, 735.5, 744.4, 745.1, 745.2, 751.9, 752.2] {
+        let (m, e) = normalised(l);
+        let (entropy, _) = entropy_and_information_from_log_odds(l);
+        assert_parted(entropy, l, |midpoint| exact::entropy_from_log_odds(m, e, midpoint));
+        assert_parted(occupancy_from_log_odds(-l), l, |midpoint| exact::occupancy(m, e, true, midpoint));
+    }
+    for p in [1, 3, 1000, 1 << 40].map(f64::from_bits) {
+        let (m, e) = normalised(p);
+        assert_parted(entropy_and_information(p).0, p, |midpoint| exact::entropy(m, e, midpoint));
+    }
+}
+
+/// docs/rounding.md: fewer than one `f64` in `2^12` meets a midpoint, and one `f32` in `2^41`.
+#[test]
+fn the_comparison_is_rarely_needed() {
+    fn check(kind: &Kind, enclose: fn(u64, i32) -> (Enclosure, Enclosure)) {
+        const COUNT: usize = 1 << 17;
+        let values = each(std::slice::from_ref(kind), 47, COUNT)
+            .flat_map(|(_, m, e)| <[Enclosure; 2]>::from(enclose(m, e)));
+        let (mut double, mut single) = (0, 0);
+        for value in values {
+            double += u32::from(matches!(value.round::<f64>(), Rounded::Between { .. }));
+            single += u32::from(matches!(value.round::<f32>(), Rounded::Between { .. }));
+        }
+        std::println!("{}: {double} of {} undecided in f64", kind.0, 2 * COUNT);
+        assert!(double << 12 < 2 * COUNT as u32 && single == 0, "{}: {double}, {single}", kind.0);
+    }
+    for kind in &OCCUPANCIES {
+        check(kind, enclose::from_occupancy);
+    }
+    for kind in &LOG_ODDS {
+        check(kind, enclose::from_log_odds);
+    }
+}

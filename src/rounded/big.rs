@@ -21,6 +21,11 @@ impl Ball {
         Self { limbs, error: 0 }.scaled(m, e)
     }
 
+    /// The limbs below the integer part.
+    pub(super) fn fraction(&self) -> usize {
+        self.limbs.len() - 1
+    }
+
     fn integer_part(&self) -> u128 {
         u128::from(self.limbs[self.limbs.len() - 1])
     }
@@ -141,7 +146,7 @@ impl Ball {
 
     /// `sum_{j >= 0} q^j / (j + 1) = -ln(1 - q) / q` for `0 <= q <= 1/2`.
     pub(super) fn log_series(&self) -> Self {
-        let fraction = self.limbs.len() - 1;
+        let fraction = self.fraction();
         let mut power = Self::dyadic(1, 0, fraction);
         let mut sum = power.clone();
         for j in 2.. {
@@ -156,13 +161,38 @@ impl Ball {
         sum
     }
 
+    /// `sum_{j >= 0} u^j / ((2j + 1) (2j + 2))` for `0 <= u <= 1/4`.
+    pub(super) fn information_series(&self) -> Self {
+        let mut power = Self::dyadic(1, 0, self.fraction());
+        let mut sum = power.clone().over(2);
+        for j in 1.. {
+            power = power.times(self);
+            if power.is_zero() {
+                break;
+            }
+            sum = sum.plus(&power.clone().over((2 * j + 1) * (2 * j + 2)));
+        }
+        // The dropped powers: the first is at most its error, and each is at most a quarter of the one before.
+        sum.error = sum.error.saturating_add(power.error);
+        sum
+    }
+
+    /// `(1 - e^-r) / r = sum_{j >= 0} (-r)^j / (j + 1)!` for `0 <= r < 1`.
+    pub(super) fn exp_quotient(&self) -> Self {
+        self.alternating_series(|j| j + 1)
+    }
+
     /// `e^-r` for `0 <= r < 1`.
     pub(super) fn exp_neg(&self) -> Self {
-        let fraction = self.limbs.len() - 1;
-        let mut term = Self::dyadic(1, 0, fraction);
+        self.alternating_series(|j| j)
+    }
+
+    /// `1 - r / d(1) + r^2 / (d(1) d(2)) - ...` for `0 <= r < 1` and divisors of at least 1.
+    fn alternating_series(&self, divisor: impl Fn(u64) -> u64) -> Self {
+        let mut term = Self::dyadic(1, 0, self.fraction());
         let mut sum = term.clone();
         for j in 1.. {
-            term = term.times(self).over(j);
+            term = term.times(self).over(divisor(j));
             if term.is_zero() {
                 break;
             }

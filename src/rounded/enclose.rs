@@ -12,17 +12,32 @@ use super::fixed::{
 /// `H(p)` and `I(p)` for `p = m 2^e` in `(0, 1)`, not 1/2.
 #[inline]
 pub(super) fn from_occupancy(m: u64, e: i32) -> (Enclosure, Enclosure) {
-    // p = m 2^-n: n = 53 above one half, n = 54 in [1/4, 1/2), more below.
     let n = -e;
-    if n <= 54 {
-        let d = (2 * m).abs_diff(1 << n);
-        if d < 1 << (n - 4) {
-            let (value, exponent) = information_series(d, n);
-            return near_unknown(value, exponent);
-        }
+    if let Some(d) = distance_from_unknown(m, n) {
+        let (value, exponent) = information_series(d, n);
+        return near_unknown(value, exponent);
     }
     let (m, n) = minor(m, n);
     if n <= 60 { with_two_logarithms(m, n) } else { with_small_occupancy(m, n) }
+}
+
+/// `|2p - 1| = d 2^-n` for `p = m 2^-n`, if it is below `2^-4`; exact.
+#[inline]
+pub(super) fn distance_from_unknown(m: u64, n: i32) -> Option<u64> {
+    // n = 53 above one half, n = 54 in [1/4, 1/2), more below.
+    if n <= 54 {
+        let d = (2 * m).abs_diff(1 << n);
+        if d < 1 << (n - 4) {
+            return Some(d);
+        }
+    }
+    None
+}
+
+/// Whether `l = m 2^e` is below `2^-3`, where `2^52 <= m < 2^53`.
+#[inline]
+pub(super) fn is_small(e: i32) -> bool {
+    e < -55
 }
 
 /// `q = min(p, 1 - p)` for `p = m 2^-n`, exactly.
@@ -87,7 +102,7 @@ fn from_product(value: u128, error: u128, scale: i32) -> (Enclosure, Enclosure) 
 /// `H` and `I` at log-odds `±l`, `l = m 2^e`, `0 < l < 2^10`.
 #[inline]
 pub(super) fn from_log_odds(m: u64, e: i32) -> (Enclosure, Enclosure) {
-    if e < -55 {
+    if is_small(e) {
         let (value, exponent) = information_series_log_odds(m, e);
         return near_unknown(value, exponent);
     }

@@ -4,18 +4,19 @@
 //! until their balls part. For an occupancy this ends, since `H(p)` is irrational for every float `p` but 0, 1/2 and 1
 //! ([`docs/rounding.md`](crate::book::rounding)); for log-odds it ends if Schanuel's conjecture holds.
 //!
-//! The natural forms avoid every division by `ln 2` and every subtraction of near equals:
+//! The forms avoid every division by `ln 2` and every subtraction of near equals:
 //! `H ln 2 = q (n ln 2 + y D(y) + (1-q) D(q))` for `q = (1-y) 2^-n`, and `H ln 2 = q (l + D(q))` for `q = 1 / (1 + e^l)`, with
-//! `D(q) = -ln(1-q) / q = sum q^j / (j+1)`.
+//! `D(q) = -ln(1-q) / q = sum q^j / (j+1)`; near "unknown" `I ln 2 = d^2 T(d^2)` for `d = |2p - 1|`, with
+//! `T(u) = sum u^j / ((2j+1) (2j+2))`.
 
 use super::big::Ball;
-use super::enclose::minor;
+use super::enclose::{distance_from_unknown, is_small, minor};
 use super::enclosure::Midpoint;
 use super::fixed::exp2_neg;
 
-/// Tries 256 bits of fraction and `more`, and doubles them until the comparison is decided.
-fn decide(more: i32, compare: impl Fn(usize) -> Option<bool>) -> bool {
-    let mut fraction = 4 + more.max(0) as usize / 64;
+/// Tries 256 bits of fraction, and doubles them until the comparison is decided.
+fn decide(compare: impl Fn(usize) -> Option<bool>) -> bool {
+    let mut fraction = 4;
     loop {
         if let Some(above) = compare(fraction) {
             return above;
@@ -35,7 +36,7 @@ fn entropy_over_occupancy(m: u64, n: i32, fraction: usize) -> Ball {
 /// Whether `H(p)` is above the midpoint, for `p = m 2^e`.
 pub(super) fn entropy(m: u64, e: i32, midpoint: Midpoint) -> bool {
     let (m, n) = minor(m, -e);
-    decide(0, |fraction| {
+    decide(|fraction| {
         let factor = entropy_over_occupancy(m, n, fraction);
         let bound = Ball::ln2(fraction).scaled(midpoint.m, midpoint.exponent + n - 53);
         factor.scaled(m, -53).is_above(&bound)
@@ -44,11 +45,27 @@ pub(super) fn entropy(m: u64, e: i32, midpoint: Midpoint) -> bool {
 
 /// Whether `I(p)` is above the midpoint, for `p = m 2^e`.
 pub(super) fn information(m: u64, e: i32, midpoint: Midpoint) -> bool {
+    if let Some(d) = distance_from_unknown(m, -e) {
+        // d = root 2^scale, with root in [1/2, 1).
+        let shift = d.leading_zeros() as i32;
+        let scale = 64 - shift + e;
+        return decide(|fraction| {
+            information_is_above(&Ball::dyadic(d << shift, -64, fraction), scale, midpoint)
+        });
+    }
     let (m, n) = minor(m, -e);
-    decide(-midpoint.exponent, |fraction| {
+    decide(|fraction| {
         let entropy = entropy_over_occupancy(m, n, fraction).scaled(m, -n);
         complement(Ball::ln2(fraction), midpoint).is_above(&entropy)
     })
+}
+
+/// Whether `I = d^2 T(d^2) / ln 2` is above the midpoint, for `d = root 2^scale < 2^-3`.
+fn information_is_above(root: &Ball, scale: i32, midpoint: Midpoint) -> Option<bool> {
+    let square = root.times(root);
+    let series = square.scaled(1, 2 * scale).information_series();
+    let bound = Ball::ln2(root.fraction()).scaled(midpoint.m, midpoint.exponent - 2 * scale);
+    square.times(&series).is_above(&bound)
 }
 
 /// `(1 - c) unit` for the midpoint `c`.
@@ -75,7 +92,7 @@ fn scaled_entropy(m: u64, e: i32, fraction: usize) -> (Ball, i32) {
 
 /// Whether `H` at log-odds `m 2^e` is above the midpoint.
 pub(super) fn entropy_from_log_odds(m: u64, e: i32, midpoint: Midpoint) -> bool {
-    decide(0, |fraction| {
+    decide(|fraction| {
         let (entropy, k) = scaled_entropy(m, e, fraction);
         entropy.is_above(&Ball::ln2(fraction).scaled(midpoint.m, midpoint.exponent + k))
     })
@@ -83,7 +100,18 @@ pub(super) fn entropy_from_log_odds(m: u64, e: i32, midpoint: Midpoint) -> bool 
 
 /// Whether `I` at log-odds `m 2^e` is above the midpoint.
 pub(super) fn information_from_log_odds(m: u64, e: i32, midpoint: Midpoint) -> bool {
-    decide(-midpoint.exponent, |fraction| {
+    if is_small(e) {
+        // l = m 2^-53 2^scale, and d = tanh(l/2) = (1 - x) / (1 + x) with x = e^-l, where 1 - x = l E(l).
+        let scale = e + 53;
+        return decide(|fraction| {
+            let l = Ball::dyadic(m, e, fraction);
+            let quotient = l.exp_quotient();
+            let one_and_x = Ball::dyadic(2, 0, fraction).minus(&l.times(&quotient));
+            let root = Ball::dyadic(m, -53, fraction).times(&quotient).divided_by(&one_and_x);
+            information_is_above(&root, scale, midpoint)
+        });
+    }
+    decide(|fraction| {
         let (entropy, k) = scaled_entropy(m, e, fraction);
         complement(Ball::ln2(fraction), midpoint).is_above(&entropy.scaled(1, -k))
     })
@@ -91,7 +119,7 @@ pub(super) fn information_from_log_odds(m: u64, e: i32, midpoint: Midpoint) -> b
 
 /// Whether the occupancy at log-odds `±m 2^e` is above the midpoint.
 pub(super) fn occupancy(m: u64, e: i32, negative: bool, midpoint: Midpoint) -> bool {
-    decide(if negative { 0 } else { -midpoint.exponent }, |fraction| {
+    decide(|fraction| {
         let (q, k) = minor_occupancy(m, e, fraction);
         if negative {
             q.is_above(&Ball::dyadic(midpoint.m, midpoint.exponent + k, fraction))

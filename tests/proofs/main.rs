@@ -12,7 +12,16 @@ use std::collections::BTreeMap;
 use std::fs;
 
 /// Functions without a script of their own: they define the translation (`expression.rs`), or only branch.
-const UNQUOTED: [&str; 6] = ["mul_high", "shift_right", "horner", "from_occupancy", "from_log_odds", "minor"];
+const UNQUOTED: [&str; 8] = [
+    "mul_high",
+    "shift_right",
+    "horner",
+    "from_occupancy",
+    "distance_from_unknown",
+    "is_small",
+    "from_log_odds",
+    "minor",
+];
 
 /// A quotation, and the definitions directly under it.
 #[derive(Debug)]

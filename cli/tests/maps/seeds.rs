@@ -139,6 +139,9 @@ const NEAR_UNKNOWN: [u8; 34] = [
     5, 3, 2, 1, 0, 3, 188, 251, 3, 188, 188, 246, 188, 251, 3, 188, 188, 246, 0, 0, 4, 3, 253, 2, 2, 0, 0, 0, 4, 3, 253, 2, 2, 0,
 ];
 
+/// Log-odds whose information lies so close to a midpoint that only the comparison in many bits decides.
+const NEAR_TIES: [f64; 2] = [-7.640966620509248e-142, 3.2817701744914864e-132];
+
 fn grid_seeds() -> Vec<(&'static str, Vec<u8>)> {
     let doubles = |cells: &[f64]| cells.iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<u8>>();
     let floats = |cells: &[f32]| cells.iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<u8>>();
@@ -153,6 +156,7 @@ fn grid_seeds() -> Vec<(&'static str, Vec<u8>)> {
         ("log_odds_f32", of(4, &floats(&l.map(|l| l as f32)))),
         ("log_odds_f64", of(5, &doubles(&l))),
         ("log_odds_near_unknown", NEAR_UNKNOWN.to_vec()),
+        ("log_odds_near_ties", of(5, &doubles(&[NEAR_TIES, NEAR_TIES, NEAR_TIES].concat()))),
         ("bad", of(3, &doubles(&[0.25, f64::NAN, 2.0]))),
     ]
 }

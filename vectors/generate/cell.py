@@ -1,0 +1,207 @@
+#!/usr/bin/env python3
+"""Writes vectors/v1/cell.*.json: edges, near-ties and seeded random arguments, with rigorous enclosures of the exact values.
+
+Needs python-flint, mpmath and numpy. The library has no part in it: the enclosures are Arb's, and mpmath's value from the
+definition must lie in each.
+"""
+
+import json
+import math
+from fractions import Fraction
+from pathlib import Path
+
+import mpmath
+import numpy as np
+
+from exact import DEFINE, FORMATS, enclosure, hardness, rounded
+
+HERE = Path(__file__).parent
+DIGITS = 40
+RANDOM = {"f64": 700, "f32": 300}
+
+FLAGS = {
+    "Edge": "An end of the domain, of a format or of a formula, or a neighbour of one.",
+    "NearTie": "Found by a search: the exact value is within 2^-20 ulp of a float or of a midpoint, mostly far closer.",
+    "Random": "From a seeded generator, all magnitudes.",
+    "Domain": "Outside the domain: the answer is the error `domain`, or NaN from a plain function of floats.",
+    "Limit": "The result is exact.",
+}
+
+OPS = {
+    "entropy": "H(p) = -p log2 p - (1-p) log2 (1-p), in bits",
+    "information": "I(p) = 1 - H(p), in bits",
+    "entropy_from_log_odds": "H(p) in bits for p = 1 / (1 + e^-l)",
+    "information_from_log_odds": "I(p) = 1 - H(p) in bits for p = 1 / (1 + e^-l)",
+    "occupancy_from_log_odds": "p = 1 / (1 + e^-l)",
+}
+
+
+def hex_float(x):
+    """C99, without trailing zeros: the id of an argument must not depend on a printer's taste."""
+    if not math.isfinite(x):
+        return str(x)
+    mantissa, exponent = x.hex().split("p")
+    return f"{mantissa.rstrip('0').rstrip('.') if '.' in mantissa else mantissa}p{int(exponent):+d}"
+
+
+def decimal(value, digits, up):
+    """A fraction in [0, 1] to so many significant digits, rounded down or up."""
+    if value == 0:
+        return "0"
+    exponent = math.floor(mpmath.log10(mpmath.mpf(value.numerator) / value.denominator))
+    exponent -= value < Fraction(10) ** exponent  # the logarithm was rounded
+    scaled = value / Fraction(10) ** (exponent - digits + 1)
+    whole = -(-scaled.numerator // scaled.denominator) if up else scaled.numerator // scaled.denominator
+    if whole == 10**digits:
+        whole, exponent = whole // 10, exponent + 1
+    assert len(str(whole)) == digits
+    text = str(whole).rstrip("0")
+    return f"{text[0]}.{text[1:] or '0'}e{exponent:+d}"
+
+
+def limit(function, x):
+    """The value where it is exact, or None."""
+    if function.endswith("odds"):
+        if x != 0 and not math.isinf(x):
+            return None
+        certain, occupancy = x != 0, Fraction(1, 2) if x == 0 else Fraction(x > 0)
+    else:
+        if x not in (0, 0.5, 1):
+            return None
+        certain, occupancy = x != 0.5, None
+    kind = function.split("_")[0]
+    return {"entropy": Fraction(not certain), "information": Fraction(certain), "occupancy": occupancy}[kind]
+
+
+def want(function, format, x):
+    """The enclosure: 40 digits, or as many as decide the rounding and 20 more."""
+    exact = limit(function, x)
+    if exact is not None:
+        text = decimal(exact, DIGITS, up=False)
+        return {"lo": text, "hi": text}
+    bounds = enclosure(function, x)
+    value = DEFINE[function](mpmath.mpf(max(-4096.0, min(x, 4096.0))))
+    value, slack = Fraction(int(mpmath.nint(mpmath.ldexp(value, 2700))), 2**2700), Fraction(1, 2**2600)
+    assert bounds[0] - slack <= value <= bounds[1] + slack, (function, x)
+
+    def text(digits):
+        return [decimal(bound, digits, up) for bound, up in zip(bounds, (False, True))]
+
+    def decides(digits):
+        lo, hi = (rounded(Fraction(bound), format) for bound in text(digits))
+        return lo == hi
+
+    digits = DIGITS
+    while not decides(digits):
+        digits += 20
+    return dict(zip(("lo", "hi"), text(digits if digits == DIGITS else digits + 20)))
+
+
+def neighbours(x, format, n=1):
+    """x and the n floats on either side."""
+    kind = {"f64": np.float64, "f32": np.float32}[format]
+    x = kind(x)
+    found = [x]
+    for direction in (-np.inf, np.inf):
+        y = x
+        for _ in range(n):
+            y = np.nextafter(y, kind(direction))
+            found.append(y)
+    return [float(y) for y in found]
+
+
+def edges(of_odds, format):
+    precision, lowest = FORMATS[format]
+    smallest, normal = 2.0**lowest, 2.0 ** (lowest + precision - 1)
+    ends = [smallest, 3 * smallest, 1000 * smallest, normal / 2, normal - smallest, normal, 4.5 * normal]
+    if not of_odds:
+        around = [1 / 2, 1 / 4, 2**-8, 1 - 2**-8, 15 / 32, 17 / 32, 2**-7, 2**-9, 2**-17, 2**-18, 2**-19, 2.0**-precision]
+        around += [0.5 + s * 2.0**-k for k in range(2, precision) for s in (-1, 1)]
+        around += [1 - 2.0**-k for k in range(2, precision + 1)]
+        around += [0.1, 0.9, 0.3, 0.7, 0.11002786443835955]
+        found = ends + [y for x in around for y in neighbours(x, format)]
+        return [x for x in found if 0 < x < 1]
+    largest = float(np.finfo({"f64": np.float64, "f32": np.float32}[format]).max)
+    around = [2.0**k for k in range(-30, 12)]
+    # Multiples of ln 2, where e^-l takes a new exponent; 8 of them end one formula. Where results become subnormal, and 0.
+    around += [k * math.log(2) for k in (1, 2, 7, 8, 9, 24, 25, 53, 54, 55, 126, 149, 150, 1022, 1074, 1075)]
+    around += [104, 108.66, 110, 714.9, 745.1332191019411, 745.1332191019412, 752.1239618607586, 1477, 1e30]
+    around += [2.0**-37, 2.0**-63, 2.0**-74, 2.0**-75] if format == "f32" else [2.0**-511, 2.0**-512, 2.0**-536, 2.0**-537]
+    around += [k / 16 for k in range(1, 128, 9)]
+    found = ends + [y for x in around for y in neighbours(x, format)] + [largest, neighbours(largest, format)[1]]
+    return [s * x for x in found for s in (1, -1)]
+
+
+def random_arguments(of_odds, format, rng):
+    """A half as maps hold them, a half of all magnitudes."""
+    n = RANDOM[format] // 2
+    kind = {"f64": np.float64, "f32": np.float32}[format]
+    precision, lowest = FORMATS[format]
+    if of_odds:
+        drawn = np.concatenate([rng.normal(0, 4, n), rng.choice([-1, 1], n) * np.exp2(rng.uniform(lowest, 10.5, n))])
+    else:
+        drawn = np.concatenate([rng.uniform(0, 1, n), np.exp2(rng.uniform(lowest, -1, n))])
+    return [float(x) for x in drawn.astype(kind)]
+
+
+def near_ties(function, format):
+    """Arguments from the searches. Those of f32 are what f64 enclosures leave undecided among all floats."""
+    found = []
+    if format == "f64":
+        for line in (HERE / "near_ties_f64.txt").read_text().splitlines():
+            name, x, _ = line.split()
+            if name == function:
+                found.append(float.fromhex(x))
+        return found
+    for line in (HERE / "near_ties_f32.txt").read_text().splitlines():
+        name, bits = line.removeprefix("near-tie ").removesuffix(" (minus)").rsplit(" ", 1)
+        x = float(np.array(int(bits, 16), np.uint32).view(np.float32))
+        if name.split()[0] == function:
+            found.append(-x if name.endswith("minus") else x)
+    found.sort(key=lambda x: -hardness(enclosure(function, x)[0], format))
+    return found[:60]
+
+
+def write(function):
+    of_odds, name = function.endswith("odds"), "l" if function.endswith("odds") else "p"
+    tests, seen = [], set()
+
+    def add(format, x, flag, answer=None):
+        key = f"{function}/{format}/{hex_float(x)}"
+        if key not in seen:
+            seen.add(key)
+            answer = answer or want(function, format, x)
+            tests.append({"id": key, "format": format, "args": {name: hex_float(x)}, "want": answer, "flags": [flag]})
+
+    for format in FORMATS:
+        rng = np.random.default_rng([20261121, list(OPS).index(function), FORMATS[format][0]])
+        for x in [0.0, -0.0] + ([math.inf, -math.inf] if of_odds else [0.5, 1.0]):
+            add(format, x, "Limit")
+        domain = [math.nan] if of_odds else [math.nan, -0.25, 1.5, math.inf, -math.inf, neighbours(1, format)[2], -(2.0 ** FORMATS[format][1])]
+        for x in domain:
+            add(format, x, "Domain", {"error": "domain"})
+        for x in near_ties(function, format):
+            add(format, x, "NearTie")
+        for x in edges(of_odds, format):
+            add(format, x, "Edge")
+        for x in random_arguments(of_odds, format, rng):
+            add(format, x, "Random")
+    header = {
+        "op": f"cell.{function}",
+        "version": 1,
+        "formula": OPS[function],
+        "tolerance_ulp": 0.5,
+        "verdict": "The float nearest to the exact value, which lies between lo and hi. No enclosure holds a midpoint of two floats.",
+        "source": "vectors/generate/cell.py: enclosures by Arb (python-flint), which contain mpmath's value of the definition.",
+        "flags": FLAGS,
+    }
+    lines = ",\n".join("    " + json.dumps(test) for test in tests)
+    body = json.dumps(header, indent=2).removesuffix("\n}")
+    (HERE.parent / "v1" / f"cell.{function}.json").write_text(f'{body},\n  "tests": [\n{lines}\n  ]\n}}\n')
+    print(f"cell.{function}: {len(tests)} tests")
+
+
+if __name__ == "__main__":
+    (HERE.parent / "v1").mkdir(exist_ok=True)
+    for function in OPS:
+        write(function)

@@ -3,6 +3,7 @@
 use clap::Parser;
 use mean_information_cli::Failure;
 use mean_information_cli::arguments::Arguments;
+use std::io::{self, Write};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -18,7 +19,8 @@ fn main() -> ExitCode {
     match done {
         Ok(status) => status.into(),
         Err(failure) => {
-            eprintln!("meaninfo: {failure}");
+            // Where stderr cannot be written, the exit status still says it; `eprintln` would panic.
+            let _ = writeln!(io::stderr(), "meaninfo: {failure}");
             ExitCode::from(2)
         }
     }

@@ -3,6 +3,9 @@
 mod common;
 
 use common::*;
+use std::fs;
+use std::io;
+use std::process::{Command, Stdio};
 
 #[test]
 fn help_and_version_are_done() {
@@ -74,4 +77,20 @@ fn a_map_with_too_many_cells_is_refused() {
     let map = folder.ros_map("room", 5, &GREYS, "scale");
     refusal(&["map", &map, "--max-cells", "14"]);
     stdout(&["map", &map, "--max-cells", "15"]);
+}
+
+/// The message is lost, but not the exit status.
+#[test]
+fn a_refusal_without_stderr_is_still_a_refusal() {
+    let status = |stderr: Stdio| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_meaninfo"));
+        command.args(["map", "no such map.yaml"]).stderr(stderr).status().unwrap().code()
+    };
+    let (reader, writer) = io::pipe().unwrap();
+    drop(reader);
+    assert_eq!(status(writer.into()), Some(2));
+    if cfg!(target_os = "linux") {
+        let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+        assert_eq!(status(full.into()), Some(2));
+    }
 }

@@ -97,6 +97,96 @@ fn a_link_keeps_pointing_and_permissions_are_ordinary() {
     assert_eq!(fs::metadata(&target).unwrap().mode(), ordinary);
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn standard_output_by_a_name_is_standard_output() {
+    let folder = Folder::new();
+    let map = folder.ros_map("room", 5, &GREYS, "scale");
+    let expected = stdout(&["map", &map]);
+    let redirected = folder.text_path("redirected");
+    for name in ["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1", &redirected] {
+        fs::write(&redirected, "before\n").unwrap();
+        let file = fs::OpenOptions::new().append(true).open(&redirected).unwrap();
+        let status = Command::new(env!("CARGO_BIN_EXE_meaninfo"))
+            .args(["map", &map, "--output", name])
+            .stdout(file)
+            .status()
+            .unwrap();
+        assert_eq!(status.code(), Some(0), "{name}");
+        assert_eq!(text(&read(&redirected)), format!("before\n{expected}"), "{name}");
+    }
+    // Into a pipe.
+    assert_eq!(stdout(&["map", &map, "--output", "/dev/stdout"]), expected);
+    assert_eq!(folder.names(), ["redirected", "room.pgm", "room.yaml"]);
+}
+
+/// No other stream of the process is written to, by whatever name, nor is a picture mixed into standard output.
+#[cfg(target_os = "linux")]
+#[test]
+fn files_that_others_hold_open_are_kept() {
+    let folder = Folder::new();
+    let map = folder.ros_map("room", 5, &GREYS, "scale");
+    let (held, link) = (folder.text_path("held"), folder.text_path("link"));
+    fs::write(&held, "before").unwrap();
+    std::os::unix::fs::symlink("/dev/stdin", &link).unwrap();
+    for name in ["/dev/stdin", "/dev/fd/0", "/proc/self/fd/0", &link] {
+        let output = Command::new(env!("CARGO_BIN_EXE_meaninfo"))
+            .args(["map", &map, "--output", name])
+            .stdin(fs::File::open(&held).unwrap())
+            .output()
+            .unwrap();
+        assert_eq!((output.status.code(), text(&output.stdout)), (Some(2), ""), "{name}");
+        assert!(text(&output.stderr).contains(name), "{}", text(&output.stderr));
+        assert_eq!(text(&read(&held)), "before", "{name}");
+    }
+    let picture = folder.text_path("picture.png");
+    std::os::unix::fs::symlink("/dev/stdout", &picture).unwrap();
+    assert!(refusal(&["map", &map, "--heat-map", &picture]).contains("stream"));
+}
+
+#[test]
+fn a_name_that_ends_as_a_folder_is_no_file() {
+    let folder = Folder::new();
+    let map = folder.ros_map("room", 5, &GREYS, "scale");
+    for name in ["x.json/", "x.json/.", "x.json//", "room.yaml/", ".", ".."] {
+        refusal(&["map", &map, "--output", &folder.text_path(name)]);
+    }
+    assert_eq!(folder.names(), ["room.pgm", "room.yaml"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_to_nothing_is_refused() {
+    let folder = Folder::new();
+    let map = folder.ros_map("room", 5, &GREYS, "scale");
+    let link = folder.text_path("link");
+    std::os::unix::fs::symlink(folder.path("nothing"), &link).unwrap();
+    assert!(refusal(&["map", &map, "--output", &link]).contains("does not exist"));
+    assert_eq!(folder.names(), ["link", "room.pgm", "room.yaml"]);
+    assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+}
+
+#[cfg(unix)]
+#[test]
+fn permissions_are_kept_and_respected() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = Folder::new();
+    let map = folder.ros_map("room", 5, &GREYS, "scale");
+    let output = folder.text_path("result");
+    let mode = || fs::metadata(&output).unwrap().permissions().mode() & 0o7777;
+    for kept in [0o600, 0o640, 0o666] {
+        fs::write(&output, "before").unwrap();
+        fs::set_permissions(&output, fs::Permissions::from_mode(kept)).unwrap();
+        stdout(&["map", &map, "--output", &output]);
+        assert!(text(&read(&output)).contains("mean information"));
+        assert_eq!(mode(), kept);
+    }
+    fs::write(&output, "before").unwrap();
+    fs::set_permissions(&output, fs::Permissions::from_mode(0o444)).unwrap();
+    assert!(refusal(&["map", &map, "--output", &output]).contains("write-protected"));
+    assert_eq!((text(&read(&output)), mode()), ("before", 0o444));
+}
+
 #[test]
 fn a_closed_pipe_is_no_error() {
     let folder = Folder::new();

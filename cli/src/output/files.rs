@@ -1,11 +1,12 @@
 //! Files that appear complete, all of them or none, and never in the place of an input.
 
+use super::standard_output;
 use crate::failure::Failure;
 use crate::maps::Problem;
-use std::fs;
-use std::io::Write;
+use std::fs::{self, OpenOptions};
+use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
-use tempfile::{Builder, NamedTempFile, TempPath};
+use tempfile::{Builder, TempPath};
 
 /// The files a command will write, and those it has read.
 #[derive(Debug, Default)]
@@ -33,8 +34,8 @@ impl Files {
     /// Writes them: each in full under a temporary name beside its own, then renames them all.
     ///
     /// # Errors
-    /// A file that is an input, is named twice, is a directory or device, or cannot be written. Then no file has been
-    /// touched, unless a rename itself failed after another had been done.
+    /// A file that is an input, is named twice, is a directory, device, stream or a link to nothing, or may not be
+    /// written. Then no file has been touched, unless a rename itself failed after another had been done.
     pub fn write(self) -> Result<(), Failure> {
         let inputs: Vec<_> = self.inputs.iter().filter_map(|path| fs::canonicalize(path).ok()).collect();
         let mut staged: Vec<(PathBuf, TempPath)> = Vec::new();
@@ -62,40 +63,81 @@ impl Files {
     }
 }
 
-/// The place that `path` means, links followed.
+/// The place that `path` means, links followed; what stands there can be replaced.
 fn target(path: &Path) -> Result<PathBuf, Problem> {
-    let problem = |message: String| Problem::new(path, message);
+    let problem = |message: &str| Problem::new(path, message);
+    let failed = |error: io::Error| problem(&format!("cannot be written: {error}"));
+    if standard_output::is(path) || is_descriptor(path) {
+        return Err(problem("is a stream of this process; give the name of a file to write to"));
+    }
     match fs::metadata(path) {
         Ok(metadata) if !metadata.is_file() => {
-            return Err(problem("is not a regular file; give the name of a file to write to".into()));
+            Err(problem("is not a regular file; give the name of a file to write to"))
         }
-        Ok(_) => return fs::canonicalize(path).map_err(|e| problem(format!("cannot be written: {e}"))),
-        Err(_) => {}
+        Ok(metadata) if metadata.permissions().readonly() => {
+            Err(problem("is write-protected; give another name, or allow it to be written"))
+        }
+        Ok(_) => {
+            // Replacing a file needs no right to write it, so ask for it.
+            OpenOptions::new().write(true).open(path).map_err(failed)?;
+            fs::canonicalize(path).map_err(failed)
+        }
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(failed(error)),
+        Err(_) if fs::symlink_metadata(path).is_ok() => {
+            Err(problem("is a link to a file that does not exist; give the name of the file itself"))
+        }
+        Err(_) => {
+            // `a/` and `a/.` name a folder, though Rust takes `a` for their file name.
+            let whole = path.as_os_str().as_encoded_bytes();
+            let name = path.file_name().filter(|name| whole.ends_with(name.as_encoded_bytes()));
+            let name = name.ok_or_else(|| problem("is not the name of a file; give one to write to"))?;
+            let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+            let folder = fs::canonicalize(folder.unwrap_or(Path::new(".")))
+                .map_err(|error| problem(&format!("its folder cannot be written to: {error}")))?;
+            Ok(folder.join(name))
+        }
     }
-    let name =
-        path.file_name().ok_or_else(|| problem("is not the name of a file; give one to write to".into()))?;
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let folder =
-        fs::canonicalize(folder).map_err(|e| problem(format!("its folder cannot be written to: {e}")))?;
-    Ok(folder.join(name))
+}
+
+/// Whether `path` is one of the links in `/proc` that stand for open files, or leads there, as `/dev/stdin` and
+/// `/dev/fd/3` do: replacing what they mean would take it from the program that has it open.
+fn is_descriptor(path: &Path) -> bool {
+    let mut path = path.to_owned();
+    // A longer chain is refused by the system itself.
+    for _ in 0..40 {
+        let (Ok(next), Some(folder)) = (fs::read_link(&path), path.parent()) else { return false };
+        if fs::canonicalize(folder).is_ok_and(|folder| folder.starts_with("/proc")) {
+            return true;
+        }
+        path = folder.join(next);
+    }
+    false
 }
 
 /// Writes the contents to a temporary file in the target's folder. Dropping it removes it.
-fn stage(target: &Path, contents: &[u8]) -> std::io::Result<TempPath> {
+fn stage(target: &Path, contents: &[u8]) -> io::Result<TempPath> {
     let folder = target.parent().unwrap_or(Path::new("."));
-    let mut temporary: NamedTempFile = ordinary_permissions(&mut Builder::new()).tempfile_in(folder)?;
+    let existing = fs::metadata(target).ok();
+    let mut builder = Builder::new();
+    if existing.is_none() {
+        ordinary_permissions(&mut builder);
+    }
+    let mut temporary = builder.tempfile_in(folder)?;
     temporary.write_all(contents)?;
+    if let Some(existing) = existing {
+        temporary.as_file().set_permissions(existing.permissions())?;
+    }
     temporary.as_file().sync_all()?;
     Ok(temporary.into_temp_path())
 }
 
 /// Those of any new file, which the process's umask narrows; a temporary file's own would hide it from other users.
-fn ordinary_permissions<'a, 'b>(builder: &'b mut Builder<'a, 'a>) -> &'b mut Builder<'a, 'a> {
+fn ordinary_permissions(builder: &mut Builder<'_, '_>) {
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
-        builder.permissions(fs::Permissions::from_mode(0o666))
+        builder.permissions(fs::Permissions::from_mode(0o666));
     }
     #[cfg(not(unix))]
-    builder
+    let _ = builder;
 }

@@ -3,6 +3,7 @@
 mod files;
 mod number;
 mod record;
+mod standard_output;
 mod table;
 
 pub use files::Files;
@@ -14,7 +15,6 @@ pub use table::{table, with_notes};
 use crate::arguments::Writing;
 use crate::failure::Failure;
 use clap::ValueEnum;
-use std::io::{self, Write};
 
 /// The form of a result.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -60,21 +60,16 @@ impl Writing {
     /// standard output early is no error.
     pub fn write(&self, report: &impl Report, mut files: Files) -> Result<(), Failure> {
         let text = report.text(self.format);
-        if let Some(path) = &self.output {
-            files.add(path, text.into_bytes());
-            return files.write();
+        match &self.output {
+            // Renamed into its place, the result would be lost to whoever holds standard output.
+            Some(path) if !standard_output::is(path) => {
+                files.add(path, text.into_bytes());
+                files.write()
+            }
+            _ => {
+                files.write()?;
+                standard_output::print(&text)
+            }
         }
-        files.write()?;
-        print(&text)
-    }
-}
-
-fn print(text: &str) -> Result<(), Failure> {
-    let mut stdout = io::stdout().lock();
-    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            Err(Failure::StandardOutput(error.to_string()))
-        }
-        _ => Ok(()),
     }
 }

@@ -99,6 +99,43 @@ fn one_table_for_several_maps() {
     assert!(rules.clone().count() > 0 && rules.map(|line| line.chars().count()).all(|width| width <= 120));
 }
 
+/// Every number, and every part of a name, stands whole in a cell, however many maps and however long their names.
+#[test]
+fn a_table_of_seven_maps_breaks_no_number() {
+    let folder = Folder::new();
+    let maps: Vec<String> = (1..8)
+        .map(|k| {
+            let greys: Vec<u8> = (0..600).map(|i| (i * i * k % 251) as u8).collect();
+            let long = "a_map_of_the_ground_floor_".repeat(k / 2);
+            folder.ros_map(&format!("{long}{k}"), 20, &greys, "scale")
+        })
+        .collect();
+    let arguments: Vec<&str> = ["map"].into_iter().chain(maps.iter().map(String::as_str)).collect();
+    let table = stdout(&arguments);
+    let words: Vec<&str> = table.split_whitespace().collect();
+    for object in json(&arguments).as_array().unwrap() {
+        for key in ["mean_information", "observed", "unknown"] {
+            assert!(words.contains(&&*object[key].to_string()), "{key} of {object} in\n{table}");
+        }
+        let name = object["map"].as_str().unwrap().rsplit('/').next().unwrap();
+        assert!(words.iter().any(|word| word.ends_with(name)), "{name} in\n{table}");
+    }
+    for title in ["mean information", "(bits / cell)", "information", "entropy", "free / occupied"] {
+        assert!(table.lines().take(3).any(|line| line.contains(title)), "{title} in\n{table}");
+    }
+}
+
+#[test]
+fn a_resolution_in_single_precision_is_shown_as_it_was_meant() {
+    let folder = Folder::new();
+    let npy = folder.npy_map("map.npy", 3, &[0.25, 0.5, 0.75]);
+    let side = f64::from(0.04_f32).to_string();
+    let table = stdout(&["map", &npy, "--resolution", &side]);
+    assert!(table.contains(" of 0.04 m "), "{table}");
+    let table = stdout(&["sweep", &npy, "--resolution", &side]);
+    assert!([" 0.04 ", " 0.08 ", " 0.16 "].iter().all(|size| table.contains(size)), "{table}");
+}
+
 #[test]
 fn a_thresholded_map_is_not_meaningful() {
     let folder = Folder::new();

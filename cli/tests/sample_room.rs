@@ -9,6 +9,7 @@ mod room;
 use common::*;
 use serde_json::Value;
 
+const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
 const MAPS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../maps");
 
 #[test]
@@ -43,4 +44,22 @@ fn it_is_a_map_with_free_occupied_and_unknown_cells_under_both_loaders() {
         assert!(count("free") > 10_000 && count("occupied") > 1000 && count("unknown") > 5000, "{json}");
         assert_eq!(json[0]["meaningful"], true);
     }
+}
+
+/// `cargo run --release -- map maps/room.yaml`, run where the README says.
+#[test]
+fn the_readme_shows_what_is_printed() {
+    let output = meaninfo().current_dir(ROOT).args(["map", "maps/room.yaml"]).output().unwrap();
+    let shown = format!("```text\n{}```\n", text(&output.stdout));
+    assert!(text(&read(format!("{ROOT}/README.md"))).contains(&shown), "README.md lacks\n{shown}");
+}
+
+/// `cargo run --release -- map maps/room.yaml --heat-map docs/room.png` makes the picture again.
+#[test]
+fn the_picture_of_the_readme_is_the_heat_map() {
+    let folder = Folder::new();
+    let picture = folder.text_path("room.png");
+    stdout(&["map", &format!("{MAPS}/room.yaml"), "--heat-map", &picture]);
+    let [drawn, shown] = [picture, format!("{ROOT}/docs/room.png")].map(|path| Pixels::of_png(&read(path)));
+    assert!(drawn == shown, "docs/room.png is not the heat map of maps/room.yaml");
 }

@@ -5,7 +5,7 @@ use crate::arguments::{Reading, Writing};
 use crate::failure::Failure;
 use crate::maps::Map;
 use crate::measures::Measures;
-use crate::output::{Files, Number, Record, Report, Value, short, table, with_notes};
+use crate::output::{Files, Number, Record, Report, Value, short, table, with_notes, wrapped};
 use crate::plots::{self, HeatMap};
 use clap::Args;
 use std::path::PathBuf;
@@ -96,9 +96,9 @@ impl MeasuredMap {
         let m = &self.measures;
         let number = m.mean_information.map_or("none".to_owned(), |x| x.to_string());
         let area = self.observed_area.map(|area| format!("\n{} m²", short(area)));
-        let side = self.resolution.map(|side| format!("\nof {side:?} m"));
+        let side = self.resolution.map(|side| format!("\nof {} m", Number::given(side)));
         [
-            self.name.clone(),
+            wrapped(&self.name),
             format!("{} × {}{}", m.width, m.height, side.unwrap_or_default()),
             number
                 + &m.doubt.map(|doubt| format!("\nnot meaningful:\n{}", doubt.reason())).unwrap_or_default(),
@@ -118,7 +118,7 @@ impl Report for MeasuredMaps {
         let header = [
             "map",
             "cells",
-            "mean information\n(bits / observed cell)",
+            "mean information\n(bits / cell)",
             "information\n(bits)",
             "entropy\n(bits)",
             "observed",

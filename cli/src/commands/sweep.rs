@@ -5,7 +5,7 @@ use crate::arguments::{Reading, Writing};
 use crate::failure::Failure;
 use crate::maps::{Map, Problem, with_grid};
 use crate::measures::Measures;
-use crate::output::{Files, Record, Report, Value, table, with_notes};
+use crate::output::{Files, Number, Record, Report, Value, table, with_notes};
 use crate::plots::{self, Picture, SweepPlot};
 use clap::Args;
 use std::path::PathBuf;
@@ -104,7 +104,7 @@ impl Report for Sweep {
             "cell size\n(m)",
             "cells",
             "observed",
-            "mean information\n(bits / observed cell)",
+            "mean information\n(bits / cell)",
             "information\n(bits)",
             "entropy\n(bits)",
         ];
@@ -112,7 +112,7 @@ impl Report for Sweep {
             let m = &step.measures;
             [
                 format!("{0} × {0}", step.k),
-                self.cell_size(step).map_or("unknown".to_owned(), |side| format!("{side:?}")),
+                self.cell_size(step).map_or("unknown".to_owned(), |side| Number::given(side).to_string()),
                 format!("{} × {}", m.width, m.height),
                 m.observed().to_string(),
                 m.mean_information.map_or("none".to_owned(), |x| x.to_string()),

@@ -10,7 +10,7 @@ pub use files::Files;
 pub use number::Number;
 pub(crate) use number::{decimal_exponent, short};
 pub use record::{Record, Value};
-pub use table::{table, with_notes};
+pub use table::{table, with_notes, wrapped};
 
 use crate::arguments::Writing;
 use crate::failure::Failure;

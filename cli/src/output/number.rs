@@ -25,6 +25,12 @@ impl Number {
         }
     }
 
+    /// A number that was given, in single precision if that holds it: what a file stores as the `f32` nearest to 0.04 is
+    /// 0.04, not 0.03999999910593033.
+    pub fn given(x: f64) -> Self {
+        if f64::from(x as f32) == x { Self::Single(x as f32) } else { Self::Double(x) }
+    }
+
     /// The same value in double precision, exactly.
     pub fn widen(self) -> f64 {
         match self {
@@ -79,6 +85,14 @@ pub(crate) fn decimal_exponent(x: f64) -> i32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn given_numbers_have_the_digits_they_were_given_with() {
+        assert_eq!(Number::given(f64::from(0.04_f32)).to_string(), "0.04");
+        assert_eq!(Number::given(f64::from(0.04_f32) * 2048.0).to_string(), "81.92");
+        assert_eq!(Number::given(0.04).to_string(), "0.04");
+        assert_eq!(Number::given(0.05000001).to_string(), "0.05000001");
+    }
 
     #[test]
     fn four_digits() {

@@ -2,10 +2,11 @@
 
 use comfy_table::{Cell, CellAlignment, ContentArrangement, LineStyle, Table, presets};
 
-/// The widest table, in characters; wider contents are wrapped.
-const WIDTH: u16 = 120;
+/// Names are wrapped to this many characters, as far as they have folders to wrap after.
+const NAME_WIDTH: usize = 20;
 
-/// A table with its columns set right, but the first, which holds names. The same text in a terminal and in a file.
+/// A table with its columns set right, but the first, which holds names. The same text in a terminal and in a file: as
+/// wide as its contents, for a number broken in two is no number.
 pub fn table<const N: usize>(header: [&str; N], rows: impl IntoIterator<Item = [String; N]>) -> String {
     let rows: Vec<_> = rows.into_iter().collect();
     // Lines between rows only where a row may have several lines itself.
@@ -13,7 +14,7 @@ pub fn table<const N: usize>(header: [&str; N], rows: impl IntoIterator<Item = [
     let style = presets::UTF8_HORIZONTAL_ONLY;
     let mut table = Table::new();
     table.load_style(if tall { style } else { style.row_separator(LineStyle::none()) });
-    table.set_content_arrangement(ContentArrangement::Dynamic).set_width(WIDTH);
+    table.set_content_arrangement(ContentArrangement::Disabled);
     table.set_header(header.map(Cell::new));
     table.add_rows(rows);
     for column in table.column_iter_mut().skip(1) {
@@ -22,7 +23,38 @@ pub fn table<const N: usize>(header: [&str; N], rows: impl IntoIterator<Item = [
     table.trim_fmt() + "\n"
 }
 
+/// A long name of a file in several lines, each of which ends with a folder.
+pub fn wrapped(name: &str) -> String {
+    let mut lines = String::new();
+    let mut width = 0;
+    for part in name.split_inclusive('/') {
+        let more = part.chars().count();
+        if width > 0 && width + more > NAME_WIDTH {
+            lines.push('\n');
+            width = 0;
+        }
+        lines.push_str(part);
+        width += more;
+    }
+    lines
+}
+
 /// The table with what is to be said of each map below it.
 pub fn with_notes<'a>(table: String, notes: impl IntoIterator<Item = (&'a str, &'a str)>) -> String {
     notes.into_iter().fold(table, |text, (map, note)| text + map + ": " + note + "\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_wrapped_after_folders_only() {
+        assert_eq!(wrapped("maps/room.yaml"), "maps/room.yaml");
+        let long = "/srv/maps/2024-11-03/building_7/ground_floor/a_rather_long_name_of_a_map_in_a_file.yaml";
+        let lines =
+            "/srv/maps/\n2024-11-03/\nbuilding_7/\nground_floor/\na_rather_long_name_of_a_map_in_a_file.yaml";
+        assert_eq!(wrapped(long), lines);
+        assert_eq!(wrapped(""), "");
+    }
 }

@@ -67,6 +67,18 @@ impl Folder {
         self.text_path(&yaml_name)
     }
 
+    /// An `.npy` map of probabilities, the lowest row first; its path.
+    pub(crate) fn npy_map(&self, name: &str, width: usize, cells: &[f64]) -> String {
+        let shape = format!("({}, {width})", cells.len().checked_div(width).unwrap_or(0));
+        let header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}}}\n");
+        let mut npy = b"\x93NUMPY\x01\x00".to_vec();
+        npy.extend((header.len() as u16).to_le_bytes());
+        npy.extend(header.into_bytes());
+        npy.extend(cells.iter().flat_map(|p| p.to_le_bytes()));
+        fs::write(self.path(name), npy).unwrap();
+        self.text_path(name)
+    }
+
     /// The names of all files in it, sorted.
     pub(crate) fn names(&self) -> Vec<String> {
         let entries = fs::read_dir(self.0.path()).unwrap();
@@ -122,6 +134,7 @@ pub(crate) fn read(path: impl AsRef<Path>) -> Vec<u8> {
 }
 
 /// The pixels of a PNG picture.
+#[derive(PartialEq)]
 pub(crate) struct Pixels {
     pub(crate) width: u32,
     pub(crate) height: u32,

@@ -3,7 +3,7 @@
 //! Read as a stream: the header, then exactly the cells it claims, then the options of the map object, which say nothing
 //! of its cells and are passed over, up to the end mark. Cells say how *free* they are.
 
-use super::size::{CHUNK, Size, at_end, read_pieces, reserve};
+use super::size::{CHUNK, Size, at_end, cells_in_words, read_pieces, reserve};
 use super::{Cells, Fault, Map, Options};
 use flate2::bufread::MultiGzDecoder;
 use mean_information::map::Grid;
@@ -60,7 +60,8 @@ fn read_plain(mut input: impl Read, options: &Options) -> Result<Map, Fault> {
         let halves = stored.iter().filter(|&&byte| matches!(byte, 127 | 128)).count();
         if halves > 0 {
             warnings.push(format!(
-                "version {version} cannot store 1/2: {halves} cells of 127 or 128 of 255 are read as unknown, as MRPT does"
+                "{} of 127 or 128 of 255, read as unknown as MRPT does: version {version} cannot store 1/2",
+                cells_in_words(halves as u64)
             ));
         }
         let cells = old_cells(&stored)?;

@@ -59,6 +59,11 @@ impl Size {
     }
 }
 
+/// So many cells, in words.
+pub(crate) fn cells_in_words(count: u64) -> String {
+    if count == 1 { "1 cell".to_owned() } else { format!("{count} cells") }
+}
+
 /// Makes room for `more` cells, doubling but never beyond `total`: memory follows what was read, not what is claimed.
 pub(crate) fn reserve<T>(cells: &mut Vec<T>, more: usize, total: usize) -> Result<(), Fault> {
     if cells.capacity() - cells.len() < more {

@@ -4,6 +4,7 @@
 //! gives nav2 its 8-bit level, rounded down. An alpha below 255 makes a cell unknown in trinary and scale mode. Raw mode
 //! ignores `negate` and alpha. The samples of a 16-bit PNG are cut to their high byte.
 
+use super::doubts::Suspect;
 use super::shading::Shading;
 use super::{Description, SAVED_UNKNOWN};
 use crate::maps::Mode;
@@ -14,10 +15,10 @@ pub(super) fn shading(description: &Description, mode: Mode, layout: &Layout) ->
     let cell = |level: u8| {
         if mode == Mode::Raw {
             let percent = if level <= 100 { level as i8 } else { -1 };
-            return (percent, (101..=254).contains(&level));
+            return (percent, (101..=254).contains(&level).then_some(Suspect::OutOfRange));
         }
         let percent = percent(description, mode, level);
-        (percent, level == SAVED_UNKNOWN && percent == 0)
+        (percent, Suspect::saved_unknown(percent).filter(|_| level == SAVED_UNKNOWN))
     };
     let white = u32::from(layout.max);
     let shading = match layout.channels {

@@ -1,6 +1,7 @@
 //! Probability mode: the occupancy of the grey level itself, in double precision, without thresholds or percent.
 
 use super::Description;
+use super::doubts::Suspect;
 use super::shading::Shading;
 use crate::maps::Fault;
 use crate::maps::image::Layout;
@@ -14,20 +15,22 @@ pub(super) fn shading(
 ) -> Result<Shading<f64>, Fault> {
     let weights = layout.colour_sum();
     let samples: u32 = weights.iter().sum();
-    let unknown = match unknown {
+    let own = u32::from(layout.max / layout.white) * samples;
+    let unknown_sum = match unknown {
         Some(level) if level > layout.white => {
             return Err(Fault::new(format!(
                 "the unknown grey level {level} is none of this image; allowed is 0 to {}",
                 layout.white
             )));
         }
-        level => level.map(|level| u32::from(level) * u32::from(layout.max / layout.white) * samples),
+        level => level.map(|level| u32::from(level) * own),
     };
     let white = samples * u32::from(layout.max);
     let shading = Shading::new(layout, weights, |sum| {
         let occupied = if description.negate { sum } else { white - sum };
-        let p = if Some(sum) == unknown { 0.5 } else { f64::from(occupied) / f64::from(white) };
-        (p, false)
+        let p = if Some(sum) == unknown_sum { 0.5 } else { f64::from(occupied) / f64::from(white) };
+        let grey = (unknown.is_none() && sum % own == 0).then_some((sum / own) as u16);
+        (p, grey.and_then(|grey| Suspect::often_unknown(grey, layout.white)))
     });
     Ok(if layout.channels.alpha() { shading.with_alpha(layout.max, |_| 0.5) } else { shading })
 }

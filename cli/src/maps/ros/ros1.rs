@@ -4,6 +4,7 @@
 //! transparent grey; the last byte of a pixel counts as alpha even if it is blue; in scale mode only an alpha of 0 makes
 //! a cell unknown, and only between the thresholds; raw mode keeps the byte as an int8.
 
+use super::doubts::Suspect;
 use super::shading::Shading;
 use super::{Description, SAVED_UNKNOWN};
 use crate::maps::Mode;
@@ -29,11 +30,12 @@ pub(super) fn shading(description: &Description, mode: Mode, layout: &Layout) ->
         if mode == Mode::Raw {
             let value = (if description.negate { 255.0 - average } else { average }) as u8 as i8;
             let allowed = (-1..=100).contains(&value);
-            return (if allowed { value } else { -1 }, !allowed);
+            return if allowed { (value, None) } else { (-1, Some(Suspect::OutOfRange)) };
         }
         let percent = percent(description, mode, average);
-        let saved_unknown = sum == samples * u32::from(SAVED_UNKNOWN);
-        (percent, saved_unknown && percent == 0 && !(alpha_averaged && layout.channels.alpha()))
+        let is_saved = sum == samples * u32::from(SAVED_UNKNOWN);
+        let is_grey = !(alpha_averaged && layout.channels.alpha());
+        (percent, Suspect::saved_unknown(percent).filter(|_| is_saved && is_grey))
     });
     if mode == Mode::Scale && layout.channels.count() > 1 {
         shading.with_alpha(1, |percent| if (1..=99).contains(&percent) { -1 } else { percent })

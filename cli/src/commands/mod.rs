@@ -14,7 +14,8 @@ use std::process::ExitCode;
 pub enum Command {
     /// The mean information of maps, and what it is made of.
     Map(map::Arguments),
-    /// The mean information of a map against its resolution, by averaging cells 2 x 2, 4 x 4, ...
+    /// The mean information of a map against its resolution, by averaging cells 2 x 2, 4 x 4, ...; what lies beyond the
+    /// map's edge is unknown.
     Sweep(sweep::Arguments),
 }
 

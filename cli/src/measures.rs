@@ -71,6 +71,8 @@ impl Measures {
 pub enum Doubt {
     /// Every observed cell has `p` 0 or 1.
     Thresholded,
+    /// There are no cells.
+    NoCells,
     /// Every cell is unknown.
     NothingObserved,
     /// Every cell is unknown, and not because it is marked so: each holds 50 percent.
@@ -82,7 +84,9 @@ impl Doubt {
         let cells = grid.cells();
         if tally.observed() > 0 {
             is_thresholded(tally).then_some(Self::Thresholded)
-        } else if !cells.is_empty() && cells.iter().all(|&stored| stored != E::unknown()) {
+        } else if cells.is_empty() {
+            Some(Self::NoCells)
+        } else if cells.iter().all(|&stored| stored != E::unknown()) {
             Some(Self::AllFiftyPercent)
         } else {
             Some(Self::NothingObserved)
@@ -93,6 +97,7 @@ impl Doubt {
     pub fn reason(self) -> &'static str {
         match self {
             Self::Thresholded => "thresholded",
+            Self::NoCells => "no cells",
             Self::NothingObserved => "nothing observed",
             Self::AllFiftyPercent => "all 50 percent",
         }
@@ -104,6 +109,7 @@ impl Doubt {
             Self::Thresholded => {
                 "thresholded: every observed cell has p = 0 or 1, so the mean information is 1 whatever the map shows"
             }
+            Self::NoCells => "the map has no cells, so there is no mean information",
             Self::NothingObserved => {
                 "nothing observed: every cell is unknown, so there is no mean information"
             }
@@ -157,7 +163,7 @@ mod tests {
         assert_eq!(doubt::<MrptLogOdds>(&[0; 3]), Some(Doubt::NothingObserved));
         assert_eq!(doubt::<Percent>(&[50, 50]), Some(Doubt::AllFiftyPercent));
         assert_eq!(doubt::<Percent>(&[50, -1]), Some(Doubt::NothingObserved));
-        assert_eq!(doubt::<Percent>(&[]), Some(Doubt::NothingObserved));
+        assert_eq!(doubt::<Percent>(&[]), Some(Doubt::NoCells));
         assert_eq!(doubt::<Percent>(&[50, 49]), None);
     }
 

@@ -177,3 +177,27 @@ fn a_map_of_fifty_percent_is_told_from_one_marked_unknown() {
     }
     assert!(stdout(&["map", &map]).contains("all 50 percent"));
 }
+
+#[test]
+fn a_map_without_cells_says_so() {
+    let folder = Folder::new();
+    let map = folder.npy_map("empty.npy", 0, &[]);
+    let json = json(&["map", &map]);
+    assert_eq!((&json[0]["mean_information"], &json[0]["meaningful"]), (&Value::Null, &false.into()));
+    assert!(json[0]["warnings"][0].as_str().unwrap().starts_with("the map has no cells"), "{json}");
+    let line = refusal(&["map", &map, "--heat-map", &folder.text_path("picture.png")]);
+    assert!(line.starts_with(&format!("meaninfo: {map}: the map has no cells")), "{line}");
+    assert_eq!(folder.names(), ["empty.npy"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn control_characters_in_names_do_not_reach_the_terminal() {
+    let folder = Folder::new();
+    let map = folder.ros_map("a\u{1b}[2Jb\u{9b}31m\nc", 3, &[0; 6], "trinary");
+    for command in ["map", "sweep"] {
+        let table = stdout(&[command, &map]);
+        assert!(!table.chars().any(|c| c.is_control() && c != '\n'), "{table:?}");
+        assert!(table.contains("a\\u{1b}[2Jb\\u{9b}31m\\nc.yaml: thresholded"), "{table}");
+    }
+}

@@ -3,8 +3,8 @@
 use super::Status;
 use crate::arguments::{Reading, Writing};
 use crate::failure::Failure;
-use crate::maps::Map;
-use crate::measures::Measures;
+use crate::maps::{Map, Problem};
+use crate::measures::{Doubt, Measures};
 use crate::output::{Files, Number, Record, Report, Value, short, table, with_notes, wrapped};
 use crate::plots::{self, HeatMap};
 use clap::Args;
@@ -42,6 +42,11 @@ impl Arguments {
             let map = self.reading.read(path)?;
             let row = MeasuredMap::new(path.display().to_string(), &map);
             if let Some(picture) = &self.heat_map {
+                if row.measures.doubt == Some(Doubt::NoCells) {
+                    return Err(
+                        Problem::new(path, "the map has no cells to draw; leave out --heat-map").into()
+                    );
+                }
                 let titles = [plots::title(path), row.measures.summary()];
                 files.add(picture, HeatMap::new(&map).to_png(&titles)?);
             }

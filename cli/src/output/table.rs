@@ -1,5 +1,6 @@
 //! Tables for people.
 
+use crate::maps::one_line;
 use comfy_table::{Cell, CellAlignment, ContentArrangement, LineStyle, Table, presets};
 
 /// Names are wrapped to this many characters, as far as they have folders to wrap after.
@@ -23,11 +24,11 @@ pub fn table<const N: usize>(header: [&str; N], rows: impl IntoIterator<Item = [
     table.trim_fmt() + "\n"
 }
 
-/// A long name of a file in several lines, each of which ends with a folder.
+/// The name of a file without control characters, a long one in several lines, each of which ends with a folder.
 pub fn wrapped(name: &str) -> String {
     let mut lines = String::new();
     let mut width = 0;
-    for part in name.split_inclusive('/') {
+    for part in one_line(name).split_inclusive('/') {
         let more = part.chars().count();
         if width > 0 && width + more > NAME_WIDTH {
             lines.push('\n');
@@ -39,9 +40,9 @@ pub fn wrapped(name: &str) -> String {
     lines
 }
 
-/// The table with what is to be said of each map below it.
+/// The table with what is to be said of each map below it, each in a line.
 pub fn with_notes<'a>(table: String, notes: impl IntoIterator<Item = (&'a str, &'a str)>) -> String {
-    notes.into_iter().fold(table, |text, (map, note)| text + map + ": " + note + "\n")
+    notes.into_iter().fold(table, |text, (map, note)| text + &one_line(&format!("{map}: {note}")) + "\n")
 }
 
 #[cfg(test)]
@@ -56,5 +57,6 @@ mod tests {
             "/srv/maps/\n2024-11-03/\nbuilding_7/\nground_floor/\na_rather_long_name_of_a_map_in_a_file.yaml";
         assert_eq!(wrapped(long), lines);
         assert_eq!(wrapped(""), "");
+        assert_eq!(wrapped("a\nb\u{1b}[2J.yaml"), "a\\nb\\u{1b}[2J.yaml");
     }
 }

@@ -74,7 +74,7 @@ impl HeatMap {
     /// The picture, under two lines of title.
     ///
     /// # Errors
-    /// A map without cells.
+    /// None is known, but for a map without cells.
     pub fn to_png(&self, titles: &[String; 2]) -> Result<Vec<u8>, Failure> {
         if self.squares.is_empty() {
             return Err(drawing_failure("the map has no cells"));

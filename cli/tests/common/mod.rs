@@ -52,7 +52,7 @@ impl Folder {
 
     /// A ROS map of the grey levels given, the upper row first, in `mode`; the path of its yaml.
     pub(crate) fn ros_map(&self, name: &str, width: usize, greys: &[u8], mode: &str) -> String {
-        let image = format!("{name}.pgm");
+        let image = format!("{}.pgm", name.replace(char::is_control, "_"));
         let mut pgm = format!("P5\n{width} {}\n255\n", greys.len() / width).into_bytes();
         pgm.extend(greys);
         fs::write(self.path(&image), pgm).unwrap();

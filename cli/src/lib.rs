@@ -1,6 +1,18 @@
 //! The parts of `meaninfo`, as a library, so that tests and fuzz targets reach them.
+//!
+//! A module depends only on those above it:
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`hex_float`] | hexadecimal floats |
+//! | [`maps`] | map files and how to read them |
+//! | [`Failure`] | why a command was not done |
+//! | [`output`] | numbers, tables, JSON and CSV, and where they go |
+//! | [`measures`] | what is measured of a map |
+//! | [`sweep`] | the measures against the size of cells |
+//! | [`plots`] | pictures of maps and sweeps |
+//! | [`commands`] | the arguments, and what they ask for |
 
-pub mod arguments;
 pub mod commands;
 mod failure;
 pub mod hex_float;
@@ -8,5 +20,6 @@ pub mod maps;
 pub mod measures;
 pub mod output;
 pub mod plots;
+pub mod sweep;
 
 pub use failure::Failure;

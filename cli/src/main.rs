@@ -2,7 +2,7 @@
 
 use clap::Parser;
 use mean_information_cli::Failure;
-use mean_information_cli::arguments::Arguments;
+use mean_information_cli::commands::Arguments;
 use std::io::{self, Write};
 use std::process::ExitCode;
 

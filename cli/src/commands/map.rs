@@ -1,11 +1,10 @@
 //! `meaninfo map`: the measures of maps, and a picture of where the information is.
 
 use super::Status;
-use crate::arguments::{Reading, Writing};
 use crate::failure::Failure;
-use crate::maps::{Map, Problem};
+use crate::maps::{self, Map, Options, Problem};
 use crate::measures::{Doubt, Measures};
-use crate::output::{Files, Number, Record, Report, Value, short, table, with_notes, wrapped};
+use crate::output::{Files, Number, Record, Report, Value, Writing, short, table, with_notes, wrapped};
 use crate::plots::{self, HeatMap};
 use clap::Args;
 use std::path::PathBuf;
@@ -20,7 +19,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE.png")]
     heat_map: Option<PathBuf>,
     #[command(flatten)]
-    reading: Reading,
+    reading: Options,
     #[command(flatten)]
     writing: Writing,
 }
@@ -39,7 +38,7 @@ impl Arguments {
         let mut files = Files::new();
         let mut measured = Vec::with_capacity(self.maps.len());
         for path in &self.maps {
-            let map = self.reading.read(path)?;
+            let map = maps::read(path, &self.reading)?;
             let row = MeasuredMap::new(path.display().to_string(), &map);
             if let Some(picture) = &self.heat_map {
                 if row.measures.doubt == Some(Doubt::NoCells) {

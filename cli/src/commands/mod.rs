@@ -1,13 +1,21 @@
-//! The commands of `meaninfo`, one per file. Each computes everything before it writes anything.
+//! The arguments and commands of `meaninfo`, one command per file. Each computes everything before it writes anything.
 
 mod map;
 mod sweep;
 
-pub use sweep::{Step, Sweep};
-
 use crate::failure::Failure;
-use clap::Subcommand;
+use clap::{Parser, Subcommand};
 use std::process::ExitCode;
+
+/// The mean information of occupancy maps (Blanco's measure): how certain a map is of the cells it has observed, in
+/// bits per observed cell, from 0 to 1.
+#[derive(Debug, Parser)]
+#[command(name = "meaninfo", version, arg_required_else_help = false)]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
 
 /// What `meaninfo` can do.
 #[derive(Debug, Subcommand)]

@@ -1,12 +1,11 @@
 //! `meaninfo sweep`: the measures of a map as its cells are averaged into larger ones.
 
 use super::Status;
-use crate::arguments::{Reading, Writing};
 use crate::failure::Failure;
-use crate::maps::{Map, Problem, with_grid};
-use crate::measures::Measures;
-use crate::output::{Files, Number, Record, Report, Value, table, with_notes};
+use crate::maps::{self, Options, Problem};
+use crate::output::{Files, Writing};
 use crate::plots::{self, Picture, SweepPlot};
+use crate::sweep::Sweep;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -20,7 +19,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE.svg|png")]
     plot: Option<PathBuf>,
     #[command(flatten)]
-    reading: Reading,
+    reading: Options,
     #[command(flatten)]
     writing: Writing,
 }
@@ -28,7 +27,7 @@ pub struct Arguments {
 impl Arguments {
     pub(super) fn run(&self) -> Result<Status, Failure> {
         let picture = self.plot.as_deref().map(Picture::by_name).transpose()?;
-        let map = self.reading.read(&self.map)?;
+        let map = maps::read(&self.map, &self.reading)?;
         let sweep = Sweep::of(self.map.display().to_string(), &map).map_err(|error| {
             Problem::new(&self.map, format!("{error}; give the map a smaller resolution"))
         })?;
@@ -39,107 +38,5 @@ impl Arguments {
         files.read(map.files);
         self.writing.write(&sweep, files)?;
         Ok(Status::Done)
-    }
-}
-
-/// The measures of a map at cells 1, 2, 4, ... times as wide, until one cell holds it all.
-#[derive(Debug)]
-pub struct Sweep {
-    name: String,
-    /// The side of a cell of the map itself, in metres.
-    pub resolution: Option<f64>,
-    /// From the map itself to the coarsest.
-    pub steps: Vec<Step>,
-    warnings: Vec<String>,
-}
-
-/// The measures at one cell size.
-#[derive(Debug)]
-pub struct Step {
-    /// How many cells of the map make the side of one cell.
-    pub k: usize,
-    /// Of the pooled map.
-    pub measures: Measures,
-}
-
-impl Sweep {
-    fn of(name: String, map: &Map) -> Result<Self, mean_information::Error> {
-        let mut steps = vec![Step { k: 1, measures: Measures::of(&map.cells) }];
-        let (width, height) = (steps[0].measures.width, steps[0].measures.height);
-        // The first power of two that covers both sides makes the map one cell; a map without cells stays as it is.
-        let powers = std::iter::successors(Some(2_usize), |k| k.checked_mul(2));
-        for k in powers.take_while(|k| k / 2 < width.max(height) && width.min(height) > 0) {
-            let measures = with_grid!(&map.cells, grid => Measures::of_grid(&grid.pooled(k)?));
-            steps.push(Step { k, measures });
-        }
-        let mut warnings = map.warnings.clone();
-        warnings.extend(steps[0].measures.doubt.map(|doubt| doubt.warning().to_owned()));
-        Ok(Self { name, resolution: map.resolution, steps, warnings })
-    }
-
-    /// The side of a cell at a step, in metres.
-    pub fn cell_size(&self, step: &Step) -> Option<f64> {
-        self.resolution.map(|side| side * step.k as f64)
-    }
-
-    fn record(&self, step: &Step) -> Record {
-        let m = &step.measures;
-        Record(vec![
-            ("k", Value::Count(step.k as u64)),
-            ("resolution_m", Value::Given(self.cell_size(step))),
-            ("width", Value::Count(m.width as u64)),
-            ("height", Value::Count(m.height as u64)),
-            ("observed", Value::Count(m.observed())),
-            ("mean_information", Value::Computed(m.mean_information)),
-            ("information_bits", Value::Computed(Some(m.information))),
-            ("entropy_bits", Value::Computed(Some(m.entropy))),
-        ])
-    }
-}
-
-impl Report for Sweep {
-    fn table(&self) -> String {
-        let header = [
-            "cells\naveraged",
-            "cell size\n(m)",
-            "cells",
-            "observed",
-            "mean information\n(bits / cell)",
-            "information\n(bits)",
-            "entropy\n(bits)",
-        ];
-        let rows = self.steps.iter().map(|step| {
-            let m = &step.measures;
-            [
-                format!("{0} × {0}", step.k),
-                self.cell_size(step).map_or("unknown".to_owned(), |side| Number::given(side).to_string()),
-                format!("{} × {}", m.width, m.height),
-                m.observed().to_string(),
-                m.mean_information.map_or("none".to_owned(), |x| x.to_string()),
-                format!("{:.3}", m.information.widen()),
-                format!("{:.3}", m.entropy.widen()),
-            ]
-        });
-        let notes = self.warnings.iter().map(|note| (&*self.name, &**note));
-        with_notes(table(header, rows), notes)
-    }
-
-    /// The map's name and its warnings stand in every row.
-    fn rows(&self) -> Vec<Record> {
-        let of_step = |step| {
-            let mut record = self.record(step);
-            record.0.insert(0, ("map", Value::Text(self.name.clone())));
-            record.0.push(("warnings", Value::Texts(self.warnings.clone())));
-            record
-        };
-        self.steps.iter().map(of_step).collect()
-    }
-
-    fn json(&self) -> Value {
-        Value::Record(Record(vec![
-            ("map", Value::Text(self.name.clone())),
-            ("rows", Value::Records(self.steps.iter().map(|step| self.record(step)).collect())),
-            ("warnings", Value::Texts(self.warnings.clone())),
-        ]))
     }
 }

@@ -1,132 +1,22 @@
 //! Map files: what they are, and reading them into grids without taking memory that their contents do not fill.
 
+mod cells;
 pub mod gridmap;
 mod image;
 pub mod npy;
+mod options;
 mod problem;
 pub mod ros;
 mod size;
 
+pub use cells::{Cells, with_grid};
+pub use options::{ArrayEncoding, MAX_CELLS, Mode, Options, Semantics};
 pub(crate) use problem::one_line;
 pub use problem::{Fault, Problem};
 
-use clap::ValueEnum;
-use mean_information::map::Grid;
-use mean_information::map::encoding::{LogOdds, MrptLogOdds, Percent, Probability};
 use std::fs::{self, File};
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
-
-/// Whose rules turn grey levels into percentages.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum Semantics {
-    /// `nav2_map_server`.
-    #[default]
-    Nav2,
-    /// ROS 1's `map_server`.
-    Ros1,
-}
-
-/// How a ROS map's grey levels are meant.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Mode {
-    /// Free, occupied or unknown by two thresholds.
-    Trinary,
-    /// Percentages between the thresholds.
-    Scale,
-    /// The grey level is the percentage.
-    Raw,
-    /// The occupancy of the grey level, unquantised.
-    Probability,
-}
-
-/// What the numbers of an `.npy` array are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum ArrayEncoding {
-    /// Occupancy probabilities (f32 or f64).
-    Probability,
-    /// ROS percentages (i8).
-    Percent,
-    /// Log-odds in nats (f32 or f64).
-    LogOdds,
-    /// MRPT's int8 log-odds of free (i8).
-    Mrpt,
-}
-
-/// How to read a map file.
-#[derive(Clone, Debug)]
-pub struct Options {
-    /// Whose rules for ROS maps.
-    pub semantics: Semantics,
-    /// The mode of ROS maps; the file's own if `None`.
-    pub mode: Option<Mode>,
-    /// In probability mode, the grey level (of the image's own depth) that means unknown.
-    pub unknown: Option<u16>,
-    /// What `.npy` numbers are; by type if `None`: floats are probabilities, int8 percentages.
-    pub encoding: Option<ArrayEncoding>,
-    /// The resolution of an `.npy` map in metres.
-    pub resolution: Option<f64>,
-    /// The most cells a map may have.
-    pub max_cells: u64,
-}
-
-/// Runs the same code on a reference to the grid of `$cells`, whatever its encoding.
-///
-/// ```
-/// # use mean_information_cli::maps::{Cells, with_grid};
-/// fn width(cells: &Cells) -> usize {
-///     with_grid!(cells, grid => grid.width())
-/// }
-/// ```
-#[macro_export]
-#[doc(hidden)]
-macro_rules! with_grid {
-    ($cells:expr, $grid:ident => $body:expr) => {
-        match $cells {
-            $crate::maps::Cells::Percent($grid) => $body,
-            $crate::maps::Cells::Mrpt($grid) => $body,
-            $crate::maps::Cells::Probability32($grid) => $body,
-            $crate::maps::Cells::Probability64($grid) => $body,
-            $crate::maps::Cells::LogOdds32($grid) => $body,
-            $crate::maps::Cells::LogOdds64($grid) => $body,
-        }
-    };
-}
-#[doc(inline)]
-pub use with_grid;
-impl Default for Options {
-    /// nav2's rules, everything else as the file says, and at most [`MAX_CELLS`] cells.
-    fn default() -> Self {
-        Self {
-            semantics: Semantics::default(),
-            mode: None,
-            unknown: None,
-            encoding: None,
-            resolution: None,
-            max_cells: MAX_CELLS,
-        }
-    }
-}
-
-/// The most cells a map may have unless the caller says otherwise: 32768 x 32768.
-pub const MAX_CELLS: u64 = 1 << 30;
-
-/// A map's cells in the encoding they were stored in.
-#[derive(Clone, Debug)]
-pub enum Cells {
-    /// ROS percentages.
-    Percent(Grid<Percent>),
-    /// MRPT bytes.
-    Mrpt(Grid<MrptLogOdds>),
-    /// Probabilities in single precision.
-    Probability32(Grid<Probability<f32>>),
-    /// Probabilities in double precision.
-    Probability64(Grid<Probability<f64>>),
-    /// Log-odds in single precision.
-    LogOdds32(Grid<LogOdds<f32>>),
-    /// Log-odds in double precision.
-    LogOdds64(Grid<LogOdds<f64>>),
-}
 
 /// A map read from a file.
 #[derive(Clone, Debug)]
@@ -144,8 +34,12 @@ pub struct Map {
 /// Reads the map at `path`, by its file name ending: `.yaml`/`.yml`, `.npy`, `.gridmap`, `.gridmap.gz`.
 ///
 /// # Errors
-/// A [`Problem`] naming the file, what is wrong and what is allowed.
+/// A [`Problem`] naming the file, what is wrong and what is allowed; also for a grey level for unknown outside
+/// probability mode.
 pub fn read(path: &Path, options: &Options) -> Result<Map, Problem> {
+    if options.unknown.is_some() && options.mode != Some(Mode::Probability) {
+        return Err(Problem::new(path, "--unknown needs --mode probability; give both or neither"));
+    }
     let name = path.file_name().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     let is = |endings: &[&str]| endings.iter().any(|&ending| name.ends_with(ending));
     let file = open(path)?;

@@ -5,15 +5,15 @@ mod number;
 mod record;
 mod standard_output;
 mod table;
+mod writing;
 
 pub use files::Files;
 pub use number::Number;
 pub(crate) use number::{decimal_exponent, short};
 pub use record::{Record, Value};
 pub use table::{table, with_notes, wrapped};
+pub use writing::Writing;
 
-use crate::arguments::Writing;
-use crate::failure::Failure;
 use clap::ValueEnum;
 
 /// The form of a result.
@@ -47,29 +47,6 @@ pub trait Report {
             Format::Table => self.table(),
             Format::Json => record::to_json(&self.json()),
             Format::Csv => record::to_csv(&self.rows()),
-        }
-    }
-}
-
-impl Writing {
-    /// Writes `report` where it was asked for, together with the other `files` of the command: first the files, all or
-    /// none, then standard output.
-    ///
-    /// # Errors
-    /// A file that cannot be written or is an input; standard output that cannot be written. A reader who closed
-    /// standard output early is no error.
-    pub fn write(&self, report: &impl Report, mut files: Files) -> Result<(), Failure> {
-        let text = report.text(self.format);
-        match &self.output {
-            // Renamed into its place, the result would be lost to whoever holds standard output.
-            Some(path) if !standard_output::is(path) => {
-                files.add(path, text.into_bytes());
-                files.write()
-            }
-            _ => {
-                files.write()?;
-                standard_output::print(&text)
-            }
         }
     }
 }

@@ -4,7 +4,6 @@
 mod bitmap;
 mod canvas;
 mod heat_map;
-
 mod scale;
 mod sweep;
 

@@ -3,9 +3,9 @@
 use super::bitmap::Bitmap;
 use super::canvas::Canvas;
 use super::{LABEL, Picture, TITLE, drawing_failure};
-use crate::commands::{Step, Sweep};
 use crate::failure::Failure;
 use crate::output::short;
+use crate::sweep::{Step, Sweep};
 use plotters::coord::Shift;
 use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint};
 use plotters::prelude::*;

@@ -1,0 +1,87 @@
+//! How map files are read, as the command line says it.
+
+use clap::{Args, ValueEnum};
+
+/// The most cells a map may have unless the caller says otherwise: 32768 x 32768.
+pub const MAX_CELLS: u64 = 1 << 30;
+
+/// Whose rules turn grey levels into percentages.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum Semantics {
+    /// `nav2_map_server`.
+    #[default]
+    Nav2,
+    /// ROS 1's `map_server`.
+    Ros1,
+}
+
+/// How a ROS map's grey levels are meant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Mode {
+    /// Free, occupied or unknown by two thresholds.
+    Trinary,
+    /// Percentages between the thresholds.
+    Scale,
+    /// The grey level is the percentage.
+    Raw,
+    /// The occupancy of the grey level, unquantised.
+    Probability,
+}
+
+/// What the numbers of an `.npy` array are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ArrayEncoding {
+    /// Occupancy probabilities (f32 or f64).
+    Probability,
+    /// ROS percentages (i8).
+    Percent,
+    /// Log-odds in nats (f32 or f64).
+    LogOdds,
+    /// MRPT's int8 log-odds of free (i8).
+    Mrpt,
+}
+
+/// How to read map files.
+#[derive(Args, Clone, Debug)]
+#[command(next_help_heading = "Reading")]
+pub struct Options {
+    /// Whose rules turn the grey levels of a ROS map into percentages.
+    #[arg(long, value_enum, default_value_t)]
+    pub semantics: Semantics,
+    /// How the grey levels of a ROS map are meant; the file's own mode if absent.
+    #[arg(long, value_enum)]
+    pub mode: Option<Mode>,
+    /// With --mode probability, the grey level (of the image's own depth) that means unknown.
+    #[arg(long, value_name = "GREY")]
+    pub unknown: Option<u16>,
+    /// What the numbers of an .npy array are; if absent, floats are probabilities and int8 are percentages.
+    #[arg(long, value_enum)]
+    pub encoding: Option<ArrayEncoding>,
+    /// The side of a cell of an .npy array in metres.
+    #[arg(long, value_name = "METRES", value_parser = positive)]
+    pub resolution: Option<f64>,
+    /// Refuse a map of more cells than this before memory is taken for it.
+    #[arg(long, value_name = "N", default_value_t = MAX_CELLS)]
+    pub max_cells: u64,
+}
+
+impl Default for Options {
+    /// nav2's rules, everything else as the file says, and at most [`MAX_CELLS`] cells.
+    fn default() -> Self {
+        Self {
+            semantics: Semantics::default(),
+            mode: None,
+            unknown: None,
+            encoding: None,
+            resolution: None,
+            max_cells: MAX_CELLS,
+        }
+    }
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(x) if x > 0.0 && x < f64::INFINITY => Ok(x),
+        _ => Err("allowed is a positive, finite number of metres".to_owned()),
+    }
+}

@@ -1,0 +1,41 @@
+//! Where a result goes.
+
+use super::{Files, Format, Report, standard_output};
+use crate::failure::Failure;
+use clap::Args;
+use std::path::PathBuf;
+
+/// Where the result goes, and in what form.
+#[derive(Args, Clone, Debug)]
+#[command(next_help_heading = "Output")]
+pub struct Writing {
+    /// A table to read, or JSON or CSV, where each result also stands as an exact hexadecimal float.
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+    /// Write the result to this file instead of standard output.
+    #[arg(long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+}
+
+impl Writing {
+    /// Writes `report` where it was asked for, together with the other `files` of the command: first the files, all or
+    /// none, then standard output.
+    ///
+    /// # Errors
+    /// A file that cannot be written or is an input; standard output that cannot be written. A reader who closed
+    /// standard output early is no error.
+    pub fn write(&self, report: &impl Report, mut files: Files) -> Result<(), Failure> {
+        let text = report.text(self.format);
+        match &self.output {
+            // Renamed into its place, the result would be lost to whoever holds standard output.
+            Some(path) if !standard_output::is(path) => {
+                files.add(path, text.into_bytes());
+                files.write()
+            }
+            _ => {
+                files.write()?;
+                standard_output::print(&text)
+            }
+        }
+    }
+}

@@ -6,6 +6,8 @@
 //! |---|---|
 //! | [`hex_float`] | hexadecimal floats |
 //! | [`maps`] | map files and how to read them |
+//! | `progress` | a bar for long work |
+//! | `cell_cache` | cells by their stored value |
 //! | [`Failure`] | why a command was not done |
 //! | [`output`] | numbers, tables, JSON and CSV, and where they go |
 //! | [`measures`] | what is measured of a map |
@@ -13,6 +15,7 @@
 //! | [`plots`] | pictures of maps and sweeps |
 //! | [`commands`] | the arguments, and what they ask for |
 
+mod cell_cache;
 pub mod commands;
 mod failure;
 pub mod hex_float;
@@ -20,6 +23,7 @@ pub mod maps;
 pub mod measures;
 pub mod output;
 pub mod plots;
+mod progress;
 pub mod sweep;
 
 pub use failure::Failure;

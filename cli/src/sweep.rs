@@ -3,6 +3,7 @@
 use crate::maps::{Map, with_grid};
 use crate::measures::Measures;
 use crate::output::{Number, Record, Report, Value, table, with_notes};
+use crate::progress::Progress;
 
 /// The measures of a map at cells 1, 2, 4, ... times as wide, until one cell holds it all.
 #[derive(Debug)]
@@ -32,11 +33,15 @@ impl Sweep {
     pub fn of(name: String, map: &Map) -> Result<Self, mean_information::Error> {
         let mut steps = vec![Step { k: 1, measures: Measures::of(&map.cells) }];
         let (width, height) = (steps[0].measures.width, steps[0].measures.height);
+        let covering = width.max(height).checked_next_power_of_two().unwrap_or(usize::MAX);
+        let progress = Progress::new(covering.ilog2() as usize);
         // The first power of two that covers both sides makes the map one cell; a map without cells stays as it is.
         let powers = std::iter::successors(Some(2_usize), |k| k.checked_mul(2));
         for k in powers.take_while(|k| k / 2 < width.max(height) && width.min(height) > 0) {
+            progress.begin(&format!("{name} by {k} x {k} cells"));
             let measures = with_grid!(&map.cells, grid => Measures::of_grid(&grid.pooled(k)?));
             steps.push(Step { k, measures });
+            progress.done();
         }
         let mut warnings = map.warnings.clone();
         warnings.extend(steps[0].measures.doubt.map(|doubt| doubt.warning().to_owned()));

@@ -23,7 +23,9 @@ fn every_module_depends_only_on_those_above_it() {
     let lib = fs::read_to_string(format!("{SOURCE}/lib.rs")).unwrap();
     let order: Vec<String> = lib
         .lines()
-        .filter_map(|line| line.strip_prefix("//! | [`")?.split('`').next())
+        .filter_map(|line| {
+            line.strip_prefix("//! | ")?.trim_start_matches('[').strip_prefix('`')?.split('`').next()
+        })
         .map(str::to_lowercase)
         .collect();
     let modules = lib.lines().filter(|line| line.ends_with(';') && line.contains("mod ")).count();

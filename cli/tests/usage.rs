@@ -22,10 +22,16 @@ fn help_and_version_are_done() {
         "--heat-map",
         "--resolution",
         "--max-cells",
-        "1073741824",
+        "268435456",
     ] {
         assert!(help.contains(option), "{option}");
     }
+    assert_eq!(
+        (help.matches("268435456").count(), help.contains("2^")),
+        (1, false),
+        "the limit is said once"
+    );
+    assert!(help.contains("1 byte a cell, 8 in --mode probability"), "{help}");
     assert!(stdout(&["sweep", "--help"]).contains("--plot"));
 }
 

@@ -6,6 +6,7 @@ use crate::maps::{self, Map, Options, Problem};
 use crate::measures::{Doubt, Measures};
 use crate::output::{Files, Number, Record, Report, Value, Writing, short, table, with_notes, wrapped};
 use crate::plots::{self, HeatMap};
+use crate::progress::Progress;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -37,7 +38,9 @@ impl Arguments {
         }
         let mut files = Files::new();
         let mut measured = Vec::with_capacity(self.maps.len());
+        let progress = Progress::new(self.maps.len());
         for path in &self.maps {
+            progress.begin(&path.display().to_string());
             let map = maps::read(path, &self.reading)?;
             let row = MeasuredMap::new(path.display().to_string(), &map);
             if let Some(picture) = &self.heat_map {
@@ -51,7 +54,9 @@ impl Arguments {
             }
             files.read(map.files);
             measured.push(row);
+            progress.done();
         }
+        drop(progress);
         self.writing.write(&MeasuredMaps(measured), files)?;
         Ok(Status::Done)
     }

@@ -2,8 +2,9 @@
 
 use clap::{Args, ValueEnum};
 
-/// The most cells a map may have unless the caller says otherwise: 32768 x 32768.
-pub const MAX_CELLS: u64 = 1 << 30;
+/// The most cells a map may have unless the caller says otherwise: 16384 x 16384, which take 2 GiB at
+/// 8 bytes each.
+pub const MAX_CELLS: u64 = 1 << 28;
 
 /// Whose rules turn grey levels into percentages.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -60,7 +61,8 @@ pub struct Options {
     /// The side of a cell of an .npy array in metres.
     #[arg(long, value_name = "METRES", value_parser = positive)]
     pub resolution: Option<f64>,
-    /// Refuse a map of more cells than this before memory is taken for it.
+    /// Refuse a map of more cells than this before memory is taken for it: 1 byte a cell, 8 in --mode probability, and
+    /// as many in .npy arrays as the file has.
     #[arg(long, value_name = "N", default_value_t = MAX_CELLS)]
     pub max_cells: u64,
 }

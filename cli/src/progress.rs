@@ -1,0 +1,52 @@
+//! A bar on stderr while a command works for more than a second, if stderr is a terminal.
+
+use crate::maps::one_line;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::io::{self, IsTerminal};
+use std::thread;
+use std::time::Duration;
+
+/// Work below this shows no bar.
+const DELAY: Duration = Duration::from_secs(1);
+const TICK: Duration = Duration::from_millis(100);
+const STYLE: &str = "{spinner} [{elapsed}] {pos} of {len}: {wide_msg}";
+
+/// How far a command is. The bar goes when this is dropped.
+pub(crate) struct Progress(ProgressBar);
+
+impl Progress {
+    /// Work of so many steps, which begins now.
+    pub(crate) fn new(steps: usize) -> Self {
+        let bar = ProgressBar::with_draw_target(Some(steps as u64), ProgressDrawTarget::hidden());
+        if let Ok(style) = ProgressStyle::with_template(STYLE) {
+            bar.set_style(style);
+        }
+        if io::stderr().is_terminal() {
+            let waiting = bar.downgrade();
+            thread::spawn(move || {
+                thread::sleep(DELAY);
+                if let Some(bar) = waiting.upgrade().filter(|bar| !bar.is_finished()) {
+                    bar.set_draw_target(ProgressDrawTarget::stderr());
+                    bar.enable_steady_tick(TICK);
+                }
+            });
+        }
+        Self(bar)
+    }
+
+    /// The next step begins: what it is about.
+    pub(crate) fn begin(&self, what: &str) {
+        self.0.set_message(one_line(what));
+    }
+
+    /// The step is done.
+    pub(crate) fn done(&self) {
+        self.0.inc(1);
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        self.0.finish_and_clear();
+    }
+}

@@ -36,6 +36,43 @@ fn every_cell_has_its_colour() {
     assert_eq!(image.at(CORNER, CORNER + 3 * CELL), [0; 3]);
 }
 
+/// The pixels of the ticks below the map, from its left edge, and beside it, from its bottom.
+fn ticks(image: &Pixels, columns: u32, rows: u32) -> [Vec<u32>; 2] {
+    let (width, height) = (columns * CELL, rows * CELL);
+    let black = |x: u32, y: u32| image.at(x, y) == [0; 3];
+    [
+        (0..width).filter(|x| black(CORNER + x, CORNER + height + 4)).collect(),
+        (0..height).filter(|y| black(CORNER - 5, CORNER + height - 1 - y)).collect(),
+    ]
+}
+
+/// A tick stands where its value lies between the first pixel and the last: each axis by its own extent and origin.
+#[test]
+fn ticks_stand_at_round_places_of_each_axis() {
+    let folder = Folder::new();
+    let map = folder.ros_map("room", 5, &GREYS, "scale");
+    let yaml = text(&read(&map)).to_owned();
+    let place = |value: f64, origin: f64, extent: f64, cells: u32| {
+        ((value - origin) / extent * f64::from(cells * CELL - 1)).round() as u32
+    };
+    for (origin, x_values, y_values) in [
+        // 1 m by 0.6 m.
+        ([0.0, 0.0], &[0.0, 0.5, 1.0][..], &[0.0, 0.2, 0.4, 0.6][..]),
+        ([-0.7, 2.35], &[-0.5, 0.0], &[2.4, 2.6, 2.8]),
+        // Too far out to label: from the corner.
+        ([5e5, -7e6], &[0.0, 0.5, 1.0], &[0.0, 0.2, 0.4, 0.6]),
+    ] {
+        let moved = yaml.replace("[0.0, 0.0,", &format!("[{:?}, {:?},", origin[0], origin[1]));
+        std::fs::write(&map, moved).unwrap();
+        let [x_origin, y_origin] = if origin[0] > 1e3 { [0.0; 2] } else { origin };
+        let expected = [
+            x_values.iter().map(|&x| place(x, x_origin, 1.0, 5)).collect::<Vec<_>>(),
+            y_values.iter().map(|&y| place(y, y_origin, 0.6, 3)).collect(),
+        ];
+        assert_eq!(ticks(&heat_map(&folder, &map), 5, 3), expected, "{origin:?}");
+    }
+}
+
 #[test]
 fn the_legend_runs_from_0_to_1_bit() {
     let folder = Folder::new();

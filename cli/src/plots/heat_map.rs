@@ -4,6 +4,7 @@ use super::bitmap::Bitmap;
 use super::canvas::Canvas;
 use super::scale::ticks;
 use super::{LABEL, TITLE, drawing_failure};
+use crate::cell_cache::CellCache;
 use crate::failure::Failure;
 use crate::maps::{Map, with_grid};
 use mean_information::Real;
@@ -43,9 +44,36 @@ pub struct HeatMap {
     zoom: usize,
     /// Row by row from the lowest; `None` where every cell is unknown, else the mean information of the observed ones.
     squares: Vec<Option<f64>>,
-    /// The extent of the map in metres, or in cells.
-    extent: [f64; 2],
-    unit: &'static str,
+    /// Along x and y.
+    axes: [MapAxis; 2],
+}
+
+/// One axis of the map, in metres or in cells.
+#[derive(Debug, PartialEq)]
+struct MapAxis {
+    start: f64,
+    extent: f64,
+    label: String,
+}
+
+impl MapAxis {
+    /// From the origin, or from the map's corner if the file has no metres, if the map is turned against the axes of the
+    /// world, or if it lies so far out that labels would be all digits.
+    fn new(name: &str, origin: Option<f64>, extent: f64, yaw: f64) -> Self {
+        let (start, label) = match origin {
+            None => (0.0, format!("{name} (cells)")),
+            Some(origin) if yaw == 0.0 && origin.abs() <= 50.0 * extent => (origin, format!("{name} (m)")),
+            Some(_) => (0.0, format!("{name} from corner (m)")),
+        };
+        Self { start, extent, label }
+    }
+
+    /// The ticks at the pixels of an axis so long, from its start.
+    fn ticks(&self, pixels: i32, spacing: i32) -> impl Iterator<Item = (i32, String)> {
+        ticks(self.start, self.start + self.extent, (pixels / spacing) as usize)
+            .into_iter()
+            .map(move |(x, text)| (along(x - self.start, self.extent, pixels), text))
+    }
 }
 
 impl HeatMap {
@@ -60,14 +88,19 @@ impl HeatMap {
         let columns = grid.width().div_ceil(block);
         let rows = grid.height().div_ceil(block);
         let side = resolution.unwrap_or(1.0);
+        let origin = resolution.map(|_| grid.geometry().origin());
+        let yaw = grid.geometry().yaw();
+        let mut cache = CellCache::new();
         Self {
             columns,
             rows,
             block,
             zoom: (COMFORTABLE / longer).clamp(1, LARGEST_CELL),
-            squares: (0..rows).flat_map(|row| row_of_squares(grid, row * block, block)).collect(),
-            extent: [grid.width() as f64 * side, grid.height() as f64 * side],
-            unit: if resolution.is_some() { "m" } else { "cells" },
+            squares: (0..rows).flat_map(|row| row_of_squares(grid, &mut cache, row * block, block)).collect(),
+            axes: [
+                MapAxis::new("x", origin.map(|[x, _]| x), grid.width() as f64 * side, yaw),
+                MapAxis::new("y", origin.map(|[_, y]| y), grid.height() as f64 * side, yaw),
+            ],
         }
     }
 
@@ -131,23 +164,19 @@ impl HeatMap {
         label((LEFT, 56), HPos::Left, VPos::Top, &self.reduction())?;
 
         frame(LEFT, TOP, layout.width, layout.height)?;
-        for (x, text) in ticks(self.extent[0], layout.width as usize / 60) {
-            let x = LEFT + along(x, self.extent[0], layout.width);
+        let [x_axis, y_axis] = &self.axes;
+        for (x, text) in x_axis.ticks(layout.width, 60) {
+            let x = LEFT + x;
             line((x, bottom), (x, bottom + 5))?;
             label((x, bottom + 7), HPos::Center, VPos::Top, &text)?;
         }
-        for (y, text) in ticks(self.extent[1], layout.height as usize / 40) {
-            let y = bottom - 1 - along(y, self.extent[1], layout.height);
+        for (y, text) in y_axis.ticks(layout.height, 40) {
+            let y = bottom - 1 - y;
             line((LEFT - 6, y), (LEFT - 1, y))?;
             label((LEFT - 9, y), HPos::Right, VPos::Center, &text)?;
         }
-        label(
-            (i32::midpoint(LEFT, right), bottom + 32),
-            HPos::Center,
-            VPos::Top,
-            &format!("x ({})", self.unit),
-        )?;
-        upwards((18, i32::midpoint(TOP, bottom)), &format!("y ({})", self.unit))?;
+        label((i32::midpoint(LEFT, right), bottom + 32), HPos::Center, VPos::Top, &x_axis.label)?;
+        upwards((18, i32::midpoint(TOP, bottom)), &y_axis.label)?;
 
         frame(layout.bar_left, TOP, BAR_WIDTH, layout.bar_height)?;
         let bar_right = layout.bar_left + BAR_WIDTH;
@@ -172,12 +201,17 @@ impl HeatMap {
 }
 
 /// The row of squares that starts at row `first` of the grid.
-fn row_of_squares<E: Encoding>(grid: &Grid<E>, first: usize, block: usize) -> Vec<Option<f64>> {
+fn row_of_squares<E: Encoding>(
+    grid: &Grid<E>,
+    cache: &mut CellCache<E>,
+    first: usize,
+    block: usize,
+) -> Vec<Option<f64>> {
     let mut sums = vec![(0.0, 0_u32); grid.width().div_ceil(block)];
     for row in (first..first + block).filter_map(|row| grid.row(row)) {
         for ((sum, observed), cells) in sums.iter_mut().zip(row.chunks(block)) {
             let known =
-                cells.iter().filter_map(|&stored| E::cell(stored)).filter(|c| c.state() != State::Unknown);
+                cells.iter().filter_map(|&stored| cache.cell(stored)).filter(|c| c.state() != State::Unknown);
             for cell in known {
                 *sum += cell.information().widen();
                 *observed += 1;
@@ -250,11 +284,22 @@ mod tests {
         let grid = Grid::<Probability<f64>>::new(3, 2, geometry, cells).unwrap();
         // H(1/4) = 2 - (3/4) log2 3.
         let information = 0.75 * libm::log2(3.0) - 1.0;
-        let squares = row_of_squares(&grid, 0, 2);
+        let squares = row_of_squares(&grid, &mut CellCache::new(), 0, 2);
         assert_eq!(squares.len(), 2);
         assert!(squares[0].is_some_and(|bits| (bits - f64::midpoint(1.0, information)).abs() < 1e-15));
         assert_eq!(squares[1], None);
-        assert_eq!(row_of_squares(&grid, 1, 3).len(), 1);
+        assert_eq!(row_of_squares(&grid, &mut CellCache::new(), 1, 3).len(), 1);
+    }
+
+    #[test]
+    fn axes_start_at_the_origin_where_that_can_be_read() {
+        let axis = |origin, yaw| MapAxis::new("y", origin, 10.0, yaw);
+        let of = |axis: MapAxis| (axis.start, axis.label);
+        assert_eq!(of(axis(Some(-3.5), 0.0)), (-3.5, "y (m)".to_owned()));
+        for corner in [axis(Some(-3.5), 0.1), axis(Some(501.0), 0.0), axis(Some(-4e6), 0.0)] {
+            assert_eq!(of(corner), (0.0, "y from corner (m)".to_owned()));
+        }
+        assert_eq!(of(axis(None, 0.0)), (0.0, "y (cells)".to_owned()));
     }
 
     #[test]

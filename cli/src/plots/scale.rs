@@ -2,17 +2,19 @@
 
 use crate::output::{decimal_exponent, short};
 
-/// The multiples of 1, 2 or 5 times a power of ten within `0..=end`, at most `most` of them after 0, with their texts.
+/// The multiples of 1, 2 or 5 times a power of ten within `start..=end`, at most `most` and one, with their texts.
 ///
-/// Decimal throughout, so that a tick is labelled `0.3` and not `0.30000000000000004`. `end` is positive and finite.
-pub(super) fn ticks(end: f64, most: usize) -> Vec<(f64, String)> {
-    let exponent = decimal_exponent(end);
+/// Decimal throughout, so that a tick is labelled `0.3` and not `0.30000000000000004`. `start` is finite and below `end`,
+/// and no further from 0 than some hundred times their distance, or the texts would be cut.
+pub(super) fn ticks(start: f64, end: f64, most: usize) -> Vec<(f64, String)> {
+    let exponent = decimal_exponent(end - start);
     // From the step that gives fewest ticks downwards; the last that does not give too many.
-    let steps = (exponent - 4..=exponent).rev().flat_map(|n| [5_u32, 2, 1].map(|m| (m, n)));
-    let mut chosen = vec![(0.0, "0".to_owned())];
+    let steps = (exponent - 4..=exponent + 1).rev().flat_map(|n| [5_i64, 2, 1].map(|m| (m, n)));
+    let mut chosen = Vec::new();
     for (m, n) in steps {
-        let multiples: Vec<_> = (0..=most as u32 + 1).map(|i| decimal(i * m, n)).collect();
-        let fitting: Vec<_> = multiples.into_iter().take_while(|&(x, _)| x <= end).collect();
+        let first = (start / decimal(m, n).0).floor() as i64;
+        let multiples = (first..first + most as i64 + 3).map(|i| decimal(i * m, n));
+        let fitting: Vec<_> = multiples.filter(|&(x, _)| start <= x && x <= end).collect();
         if fitting.len() > most + 1 {
             break;
         }
@@ -22,7 +24,7 @@ pub(super) fn ticks(end: f64, most: usize) -> Vec<(f64, String)> {
 }
 
 /// `digits * 10^n` and its text.
-fn decimal(digits: u32, n: i32) -> (f64, String) {
+fn decimal(digits: i64, n: i32) -> (f64, String) {
     let x = format!("{digits}e{n}").parse().unwrap_or(f64::NAN);
     (x, short(x))
 }
@@ -32,7 +34,7 @@ mod tests {
     use super::*;
 
     fn texts(end: f64, most: usize) -> Vec<String> {
-        ticks(end, most).into_iter().map(|(_, text)| text).collect()
+        ticks(0.0, end, most).into_iter().map(|(_, text)| text).collect()
     }
 
     #[test]
@@ -46,9 +48,20 @@ mod tests {
     }
 
     #[test]
+    fn axes_that_do_not_start_at_0() {
+        let texts =
+            |start, end, most| ticks(start, end, most).into_iter().map(|(_, text)| text).collect::<Vec<_>>();
+        assert_eq!(texts(-0.4, 9.6, 5), ["0", "2", "4", "6", "8"]);
+        assert_eq!(texts(-10.0, 10.0, 4), ["-10", "-5", "0", "5", "10"]);
+        assert_eq!(texts(-0.35, -0.05, 3), ["-0.3", "-0.2", "-0.1"]);
+        assert_eq!(texts(499.0, 509.0, 5), ["500", "502", "504", "506", "508"]);
+        assert_eq!(texts(3.1, 3.9, 0), ["3.5"]);
+    }
+
+    #[test]
     fn extremes_end() {
         for end in [f64::MIN_POSITIVE, 5e-324, f64::MAX] {
-            let ticks = ticks(end, 6);
+            let ticks = ticks(0.0, end, 6);
             assert!(
                 (1..=7).contains(&ticks.len()) && ticks.iter().all(|&(x, _)| x <= end),
                 "{end}: {ticks:?}"

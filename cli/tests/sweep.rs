@@ -158,6 +158,45 @@ fn the_svg_is_well_formed_and_its_text_is_text() {
     assert!(texts.iter().any(|text| text.starts_with("a <b> & \"c\".yaml")), "{texts:?}");
 }
 
+/// The points of both curves lie where the labels of their axes say.
+#[test]
+fn points_stand_where_their_axis_says() {
+    let room = concat!(env!("CARGO_MANIFEST_DIR"), "/../maps/room.yaml");
+    let folder = Folder::new();
+    let plot = folder.text_path("plot.svg");
+    let json = stdout(&["sweep", room, "--plot", &plot, "--format", "json"]);
+    let json: Value = serde_json::from_str(&json).unwrap();
+    let svg = read(&plot);
+    let document = roxmltree::Document::parse(text(&svg)).unwrap();
+    let number = |node: roxmltree::Node, name: &str| node.attribute(name).unwrap().parse::<f64>().unwrap();
+    let nodes = |tag: &'static str| document.descendants().filter(move |node| node.has_tag_name(tag));
+    // Labels of vertical axes end at their tick; those of the upper panel stand above the lower one's.
+    let labels: Vec<(f64, f64)> = nodes("text")
+        .filter(|node| node.attribute("text-anchor") == Some("end"))
+        .map(|node| (number(node, "y"), node.text().unwrap().trim().parse().unwrap()))
+        .collect();
+    let upper = labels.iter().filter(|(y, _)| *y < 390.0).copied().collect::<Vec<_>>();
+    let lower: Vec<_> =
+        labels.iter().filter(|(y, _)| *y > 390.0).map(|&(y, bits)| (y, libm::log10(bits))).collect();
+    assert!(upper.len() == 6 && lower.len() > 4, "{labels:?}");
+    let rows = json["rows"].as_array().unwrap();
+    for (ticks, colour, key, logarithmic) in
+        [(upper, "#005AAA", "mean_information", false), (lower, "#BE4B00", "entropy_bits", true)]
+    {
+        // The circle of the legend follows.
+        let circles: Vec<_> = nodes("circle").filter(|node| node.attribute("fill") == Some(colour)).collect();
+        assert_eq!(circles.len(), rows.len() + 1);
+        let ((y0, v0), (y1, v1)) = (ticks[0], ticks[ticks.len() - 1]);
+        for (row, circle) in rows.iter().zip(circles) {
+            let value = row[key].as_f64().unwrap();
+            let value = if logarithmic { libm::log10(value) } else { value };
+            let expected = y0 + (value - v0) / (v1 - v0) * (y1 - y0);
+            let cy = number(circle, "cy");
+            assert!((cy - expected).abs() <= 1.5, "{key} {value}: {cy}, not {expected}");
+        }
+    }
+}
+
 #[test]
 fn the_png_has_both_curves_and_the_same_bytes_on_every_run() {
     let folder = Folder::new();

@@ -89,6 +89,20 @@ fn version_2_holds_probabilities_of_free() {
     assert!(map.warnings[0].starts_with("1 cell of 127 or 128"), "{:?}", map.warnings);
 }
 
+/// The extent may differ from the cells' by half a cell, as MRPT allows, and by no more.
+#[test]
+fn an_extent_is_that_of_its_cells_to_half_a_cell() {
+    let folder = Folder::new();
+    for (excess, allowed) in [(0.45_f32, true), (-0.45, true), (0.55, false), (-0.55, false), (0.95, false)] {
+        for axis in [1, 3] {
+            let mut map = GridMap::small();
+            map.place[axis] += 0.25 * excess;
+            let read = maps::read(&folder.write("map.gridmap", map.bytes()), &Options::default());
+            assert_eq!(read.is_ok(), allowed, "{excess} cells along axis {axis}");
+        }
+    }
+}
+
 #[test]
 fn what_is_no_map_is_refused() {
     let small = GridMap::small;
@@ -108,7 +122,7 @@ fn what_is_no_map_is_refused() {
         (GridMap { place: [-0.5, 0.25, 2.0, 2.5, nan], ..small() }.bytes(), "resolution is NaN"),
         (GridMap { place: [nan, 0.25, 2.0, 2.5, 0.25], ..small() }.bytes(), "origin is NaN"),
         (GridMap { place: [-0.5, nan, 2.0, 2.5, 0.25], ..small() }.bytes(), "claims 3 cells along x"),
-        (GridMap { size: [u32::MAX, u32::MAX], ..small() }.bytes(), "more than the limit of 1073741824"),
+        (GridMap { size: [u32::MAX, u32::MAX], ..small() }.bytes(), "more than the limit of 268435456"),
         (good[..20].to_vec(), "cut short"),
         (good[..58].to_vec(), "cut short"),
         (good[..good.len() - 1].to_vec(), "end mark"),
@@ -134,7 +148,7 @@ fn a_gzip_bomb_is_refused_early() {
     let honest = gzip(&GridMap { size, place, ..GridMap::small() }.header());
     let refused =
         refusal("map.gridmap.gz", [&honest, &gigabytes].map(Vec::as_slice).concat(), &Options::default());
-    assert!(refused.contains("4294967296 cells, more than the limit of 1073741824"), "{refused}");
+    assert!(refused.contains("4294967296 cells, more than the limit of 268435456"), "{refused}");
     assert!(refused.contains("--max-cells"), "{refused}");
 
     let ended = gzip(&GridMap::small().bytes());

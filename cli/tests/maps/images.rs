@@ -463,6 +463,39 @@ fn greys_that_often_mean_unknown_are_spoken_of_in_probability_mode() {
     assert_eq!(warnings(100, 50, 15, None), [""; 0]);
 }
 
+/// nav2 subtracts the thresholds in double precision and rounds the difference to single: 37.499996 percent here, where
+/// single precision throughout gives 37.5, hence 38.
+#[test]
+fn nav2_rounds_the_width_between_the_thresholds_once() {
+    let folder = Folder::new();
+    folder.write("image.pgm", pgm(1, 1, 255, &[153]));
+    let options = Options { mode: Some(Mode::Scale), ..Options::default() };
+    let rule = Rule { free: 0.1, occupied: 0.9, negate: false };
+    let width = (0.9_f64 - 0.1) as f32;
+    assert_ne!(width, 0.9_f32 - 0.1_f32, "the case tells the two apart");
+    assert_eq!(percents(&read_with(&folder, "image.pgm", rule, &options)), [37]);
+}
+
+/// Text says nothing of cells: too much of it, or broken, is passed over.
+#[test]
+fn text_in_a_png_is_passed_over() {
+    let folder = Folder::new();
+    let idat = || ("IDAT", zlib(&[0, 0, 255, 102]));
+    let plain = raw_png(3, 1, 8, 0, 0, &[idat()]);
+    folder.write("image.png", &plain);
+    let expected = percents(&read_with(&folder, "image.png", rules()[2], &Options::default())).to_vec();
+    let long = [b"Comment\0".as_slice(), &vec![b'x'; 17 << 20]].concat();
+    for (name, data) in [
+        ("tEXt", long.clone()),
+        ("iTXt", [b"Comment\0\0\0\0\0".as_slice(), &long[8..]].concat()),
+        ("zTXt", [b"Comment\0\0".as_slice(), &[7; 20]].concat()),
+    ] {
+        folder.write("image.png", raw_png(3, 1, 8, 0, 0, &[(name, data), idat()]));
+        let map = read_with(&folder, "image.png", rules()[2], &Options::default());
+        assert_eq!(percents(&map), expected, "{name}");
+    }
+}
+
 #[test]
 fn yaml_spellings() {
     let folder = Folder::new();
@@ -485,6 +518,7 @@ fn yaml_spellings() {
             absolute.into(),
             "negate: off # not\nmode: 'TRINARY'\nmap_type: {a: [1, {b: c}], 2: 3}\n? [x, y]\n: z\n",
         ),
+        ("\timage.pgm".into(), "negate: \t0\nmode:\t'trinary'\t# tab\n"),
         ("image.pgm".into(), "negate: !!int 0\nunknown_key:\n  - 1\n  - deep: [2]\n"),
     ] {
         let text = yaml(&image, more);

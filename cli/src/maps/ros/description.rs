@@ -47,7 +47,7 @@ impl Description {
             return Err(Fault::new(format!("is no map description: it is above {MOST_BYTES} bytes")));
         }
         let text = std::str::from_utf8(&bytes).map_err(|_| Fault::new("is not UTF-8 text"))?;
-        let mut values = Events(Parser::new_from_str(text)).values()?;
+        let mut values = Events { text, parser: Parser::new_from_str(text) }.values()?;
         let mut take = |key: &str| values.remove(key);
 
         let image = scalar(take("image"), "image")?;
@@ -153,14 +153,21 @@ fn mode(text: &str) -> Result<Mode, Fault> {
 }
 
 /// The events of a file, without anchors and aliases.
-struct Events<'a>(Parser<'a, StrInput<'a>>);
+struct Events<'a> {
+    text: &'a str,
+    parser: Parser<'a, StrInput<'a>>,
+}
 
 impl<'a> Events<'a> {
     fn next(&mut self) -> Result<Event<'a>, Fault> {
-        let (event, span) = match self.0.next_event() {
+        let (event, span) = match self.parser.next_event() {
             Some(Ok(next)) => next,
             Some(Err(error)) => {
-                let (line, what) = (error.marker().line(), error.info());
+                let line = error.marker().line();
+                // The parser refuses a tab, also a legal one, in words that do not say so.
+                let tabbed =
+                    self.text.lines().nth(line.saturating_sub(1)).is_some_and(|line| line.contains('\t'));
+                let what = if tabbed { "the line has a tab; write a space instead" } else { error.info() };
                 return Err(Fault::new(format!("is malformed YAML in line {line}: {what}")));
             }
             None => return Err(Fault::new("is malformed YAML: it ends too early")),

@@ -8,3 +8,4 @@ mod png_bytes;
 mod real;
 mod seeds;
 mod support;
+mod warnings;

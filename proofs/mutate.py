@@ -17,7 +17,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-FIXED, ENCLOSE = "src/rounded/fixed.rs", "src/rounded/enclose.rs"
+FIXED, ENCLOSE, GAUSSIAN = (f"src/rounded/{name}.rs" for name in ("fixed", "enclose", "gaussian"))
 
 
 def error_constant(name, exponent, smaller, *where):
@@ -40,10 +40,12 @@ def both(file, script, quotation, definition):
 # (what is changed, what must fail, edits as (file, old, new)).
 MUTATIONS = [
     ("LOG_ERROR halved, in both", "log2.gappa",
-     error_constant("LOG_ERROR", 43, 42, "log2", "with_two_logarithms", "with_small_occupancy", "with_large_odds")),
+     error_constant("LOG_ERROR", 43, 42, "log2", "with_two_logarithms", "with_small_occupancy", "with_large_odds",
+                    "ln_by_log2")),
     ("LOG_1P_OVER_ERROR halved, in both", "log2_1p_over.gappa",
-     error_constant("LOG_1P_OVER_ERROR", 42, 41, "log2_1p_over", "with_small_occupancy", "with_small_odds")),
-    ("EXP_ERROR halved, in both", "exp2_neg.gappa", error_constant("EXP_ERROR", 48, 47, "exp2_neg", "occupancy")),
+     error_constant("LOG_1P_OVER_ERROR", 42, 41, "log2_1p_over", "with_small_occupancy", "with_small_odds",
+                    "ln_near_one")),
+    ("EXP_ERROR halved, in both", "exp2_neg.gappa", error_constant("EXP_ERROR", 48, 47, "exp2_neg", "occupancy", "exp")),
     ("SERIES_ERROR halved, in both", "information_series.gappa",
      error_constant("SERIES_ERROR", 55, 54, "information_series", "information_series_log_odds", "near_unknown")
      + [("proofs/near_unknown.gappa", f"<= {2**55 + 1} # SERIES_ERROR + 1", f"<= {2**54 + 1} # SERIES_ERROR + 1")]),
@@ -100,6 +102,34 @@ MUTATIONS = [
      + [("proofs/with_small_odds.gappa", "1b-76", "1b-80")]),
     ("occupancy: the error EXP_ERROR, in both", "occupancy.gappa",
      [(file, "2 * EXP_ERROR", "1 * EXP_ERROR") for file in (ENCLOSE, "proofs/occupancy.gappa")]),
+    ("exp_neg: only the high half of 1 / ln 2, in both", "exp_neg.gappa",
+     both(FIXED, "exp_neg", ("let t = mul_high(l, INV_LN2);", "let t = mul_high(l, INV_LN2 >> 64 << 64);"),
+          ("t = floor(l * INV_LN2 * 1b-128);", "t = floor(l * (floor(INV_LN2 * 1b-64) * 1b64) * 1b-128);"))),
+    ("exp: 1 - f short by 2^10 units, in both", "exp.gappa",
+     both(ENCLOSE, "exp", ("let rest = (1 << 116) - 1 - fraction;", "let rest = (1 << 116) - 1024 - fraction;"),
+          ("rest = 1b116 - 1 - fraction;", "rest = 1b116 - 1024 - fraction;"))),
+    ("ln_near_one: the error LOG_1P_OVER_ERROR << 13, in both", "ln_near_one.gappa",
+     both(ENCLOSE, "ln_near_one", ("LOG_1P_OVER_ERROR << 14", "LOG_1P_OVER_ERROR << 13"),
+          ("LOG_1P_OVER_ERROR * 1b14", "LOG_1P_OVER_ERROR * 1b13"))),
+    ("ln_near_one: log2_slope << 14, in both", "ln_near_one.gappa",
+     both(ENCLOSE, "ln_near_one", ("mul_high(log2_slope << 15, LN2)", "mul_high(log2_slope << 14, LN2)"),
+          ("floor(log2_slope * 1b15 * LN2", "floor(log2_slope * 1b14 * LN2"))),
+    ("ln_by_log2: the error LOG_ERROR >> 5, in both", "ln_by_log2.gappa",
+     both(ENCLOSE, "ln_by_log2", ("LOG_ERROR >> 4", "LOG_ERROR >> 5"), ("floor(LOG_ERROR * 1b-4)", "floor(LOG_ERROR * 1b-5)"))),
+    ("cut: small << 73, in both", "half_square.gappa",
+     both(GAUSSIAN, "half_square", ("u128::from(small) << 74", "u128::from(small) << 73"),
+          ("narrow = floor(small * 1b74", "narrow = floor(small * 1b73"))),
+    ("cut: both << 75, in both", "half_square.gappa",
+     both(GAUSSIAN, "half_square", (") << 74", ") << 75"), ("* 1b74", "* 1b75"))),
+    ("half_square: ratio >> 6, in both", "half_square.gappa",
+     both(GAUSSIAN, "half_square", ("mul_high(ratio << 1, ratio << 1)", "mul_high(ratio >> 6 << 7, ratio >> 6 << 7)"),
+          ("square = floor(ratio * 1b1 * (ratio * 1b1) * 1b-128);",
+           "square = floor(floor(ratio * 1b-6) * 1b7 * (floor(ratio * 1b-6) * 1b7) * 1b-128);"))),
+    ("half_square: ratio << 2, in both", "half_square.gappa",
+     both(GAUSSIAN, "half_square", ("mul_high(ratio << 1, ratio << 1)", "mul_high(ratio << 2, ratio << 2)"),
+          ("floor(ratio * 1b1 * (ratio * 1b1) * 1b-128);\n#: let exponent", "floor(ratio * 1b2 * (ratio * 1b2) * 1b-128);\n#: let exponent"))),
+    ("gaussian.rs alone: t^2 instead of t^2 / 2", "source", [(GAUSSIAN, "2 * e + 129", "2 * e + 130")]),
+    ("gaussian.rs alone: half of EXP_ERROR", "source", [(GAUSSIAN, "around(y, EXP_ERROR, ", "around(y, EXP_ERROR / 2, ")]),
     ("constants.sollya: Q of degree 5 instead of 6", "constants.sollya",
      [("proofs/constants.sollya", "  q_series, 6, 63,", "  q_series, 5, 63,")]),
     ("constants.sollya: the bound on V's error 2^-67", "constants.sollya",
@@ -118,7 +148,8 @@ MUTATIONS = [
     ("log2.gappa alone: a smaller error of Q assumed", "source", [("proofs/log2.gappa", "<= 0.43528 # LOG_Q", "<= 0.3 # LOG_Q")]),
     ("with_two_logarithms.gappa alone: half of LOG_ERROR assumed", "source",
      [("proofs/with_two_logarithms.gappa", "exact_log2_m| <= 1b43", "exact_log2_m| <= 1b42")]),
-    ("exp2_neg.gappa alone: t's error not proved", "source", [("proofs/exp2_neg.gappa", "    |t - exact_t| <= 4 /\\\n", "")]),
+    ("exp_neg.gappa alone: t's error not proved", "source",
+     [("proofs/exp_neg.gappa", "    (exact_l - l in [0, 1] -> |t - exact_t| <= 2) /\\\n", "")]),
 ]
 
 

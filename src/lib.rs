@@ -28,14 +28,16 @@
 //!
 //! | module | holds | equations |
 //! |---|---|---|
+//! | [`elementary`] | exponential, logarithm and square root, correctly rounded | |
 //! | [`cell`] | entropy and information of one cell, correctly rounded | 1, 3 |
 //! | [`tally`] | the exact, mergeable sums over a map | 2, 4 |
 //! | [`map`] | grids, cell encodings, pooling | |
+//! | [`sensor`] | inverse sensor models: what a range reading says of a point | 5 |
 //! | [`real`] | the two scalar types | |
 //! | [`book`] | the derivation, chapter by chapter, with every claim executed | |
 //!
 //! # What it promises
-//! * Entropy and information of a cell are **correctly rounded**, in `f32` and `f64`, for every input.
+//! * Entropy and information of a cell, and its occupancy by Eq. 5, are **correctly rounded**, in `f32` and `f64`, for every input.
 //! * Sums over cells are **exact** until they are read, then rounded once: no order, split or thread count changes a bit.
 //! * The same bits on every platform: everything is integer arithmetic, and no elementary function of the standard library is
 //!   called.
@@ -56,10 +58,12 @@
 extern crate alloc;
 
 pub mod cell;
+pub mod elementary;
 mod error;
 pub mod map;
 pub mod real;
 mod rounded;
+pub mod sensor;
 pub mod tally;
 
 pub use error::Error;
@@ -72,6 +76,8 @@ pub mod book {
     pub mod cell {}
     #[doc = include_str!("../docs/map.md")]
     pub mod map {}
+    #[doc = include_str!("../docs/sensor.md")]
+    pub mod sensor {}
     #[doc = include_str!("../docs/rounding.md")]
     pub mod rounding {}
     #[doc = include_str!("../docs/guarantees.md")]

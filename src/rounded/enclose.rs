@@ -3,10 +3,11 @@
 //! Notation of [`docs/rounding.md`](crate::book::rounding): `q = min(p, 1-p)`, `d = |2p - 1|`, `l` the magnitude of the
 //! log-odds, `x = e^-l`, so that `q = x / (1 + x)`. Significands `m` are in `[2^52, 2^53)`.
 
+use super::constants::{INV_LN2, LN2};
 use super::enclosure::Enclosure;
 use super::fixed::{
-    EXP_ERROR, LOG_1P_OVER_ERROR, LOG_ERROR, ONE_120, SERIES_ERROR, exp2_neg, information_series,
-    information_series_log_odds, log2, log2_1p_over, mul_high, reciprocal, shift_right,
+    EXP_ERROR, LOG_1P_OVER_ERROR, LOG_ERROR, ONE_120, SERIES_ERROR, exp_neg, exp2_neg, information_series,
+    information_series_log_odds, log2, log2_1p_over, mul_high, reciprocal, scale_117, shift_right,
 };
 
 /// `H(p)` and `I(p)` for `p = m 2^e` in `(0, 1)`, not 1/2.
@@ -106,7 +107,7 @@ pub(super) fn from_log_odds(m: u64, e: i32) -> (Enclosure, Enclosure) {
         let (value, exponent) = information_series_log_odds(m, e);
         return near_unknown(value, exponent);
     }
-    let (y, k, t) = exp2_neg(m, e);
+    let (y, k, t) = exp_neg(scale_117(m, e));
     let x = shift_right(y, k);
     let inverse = reciprocal((1 << 126) + x);
     if k < 8 { with_large_odds(x, inverse, t) } else { with_small_odds(y, k, inverse, t) }
@@ -119,7 +120,7 @@ fn with_large_odds(x: u128, inverse: u128, t: u128) -> (Enclosure, Enclosure) {
     // log2 w = log2 n + log2 (1 + rest/n), and rest/n < 2^-60: its square is below one unit.
     let (n, rest) = ((w >> 66) as u64, w & ((1 << 66) - 1));
     let ratio = (rest * (inverse >> 66)) >> 66;
-    let correction = (ratio * (super::constants::INV_LN2 >> 64)) >> 63;
+    let correction = (ratio * (INV_LN2 >> 64)) >> 63;
     let log2_w = (log2(n, 60) + correction as i128) as u128;
     let q = mul_high(x << 1, inverse << 1);
     let product = mul_high(t << 8, q << 2) >> 4;
@@ -139,7 +140,7 @@ fn with_small_odds(y: u128, k: i32, inverse: u128, t: u128) -> (Enclosure, Enclo
 /// `1 / (1 + e^-l)` at log-odds `±l`, `l = m 2^e`, `0 < l < 2^10`.
 #[inline]
 pub(super) fn occupancy(m: u64, e: i32, negative: bool) -> Enclosure {
-    let (y, k, _) = exp2_neg(m, e);
+    let (y, k, _) = exp_neg(scale_117(m, e));
     let inverse = reciprocal((1 << 126) + shift_right(y, k));
     let q = mul_high(y << 1, inverse << 1);
     if negative {
@@ -148,4 +149,42 @@ pub(super) fn occupancy(m: u64, e: i32, negative: bool) -> Enclosure {
         let error = shift_right(2 * EXP_ERROR, k) + 2;
         Enclosure::around((1 << 126) - shift_right(q, k), error, -126)
     }
+}
+
+/// `e^±l` for `l = m 2^e < 2^10`.
+pub(super) fn exp(m: u64, e: i32, negative: bool) -> Enclosure {
+    let (y, k, t) = exp_neg(scale_117(m, e));
+    // e^l = 2^(k+1) 2^-(1-f), f the fraction of t.
+    let fraction = t & ((1 << 116) - 1);
+    let rest = (1 << 116) - 1 - fraction;
+    if negative {
+        Enclosure::around(y, EXP_ERROR, -126 - k)
+    } else {
+        Enclosure::around(exp2_neg(rest), EXP_ERROR, k - 125)
+    }
+}
+
+/// `|ln x|` for `x = m 2^e`, not 1.
+pub(super) fn ln(m: u64, e: i32) -> Enclosure {
+    // x = 1 ± d 2^-s, within a factor of 2 of 1.
+    let (d, s, negative) = if e == -52 { (m - (1 << 52), 52, false) } else { ((1 << 53) - m, 53, true) };
+    if (e == -52 || e == -53) && d >> (s - 8) == 0 { ln_near_one(d, s, negative) } else { ln_by_log2(m, e) }
+}
+
+/// `|ln (1 ± d 2^-s)|` for `d 2^-s < 2^-8`.
+fn ln_near_one(d: u64, s: i32, negative: bool) -> Enclosure {
+    let log2_slope = log2_1p_over(d << (71 - s), negative);
+    let slope = mul_high(log2_slope << 15, LN2);
+    let shift = d.leading_zeros() as i32;
+    let significand = u128::from(d << shift) << 64;
+    let value = mul_high(significand, slope);
+    Enclosure::around(value, LOG_1P_OVER_ERROR << 14, -62 - shift - s)
+}
+
+/// `|ln x| = |log2 x| ln 2` for `x = m 2^e`, not within `2^-8` of 1.
+fn ln_by_log2(m: u64, e: i32) -> Enclosure {
+    let log2_x = (e + 52) as i128 * (1 << 112) + (log2(m, 52) >> 8);
+    let magnitude = log2_x.unsigned_abs();
+    let value = mul_high(magnitude << 4, LN2 << 1);
+    Enclosure::around(value, LOG_ERROR >> 4, -116)
 }

@@ -72,7 +72,7 @@ pub(crate) fn round_limbs<T: Real>(limbs: &[u64], e: i32, sticky: bool) -> T {
 }
 
 /// Rounds `m * 2^e`, a little more if `sticky`, to nearest, ties to even.
-fn round_integer<T: Real>(m: u128, e: i32, sticky: bool) -> T {
+pub(crate) fn round_integer<T: Real>(m: u128, e: i32, sticky: bool) -> T {
     let bits = 128 - m.leading_zeros() as i32;
     let drop = (bits - T::PRECISION as i32).max(T::MIN_EXPONENT - e);
     if drop <= 0 {

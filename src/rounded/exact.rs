@@ -2,7 +2,8 @@
 //!
 //! Each function compares two numbers that differ only if the value differs from the midpoint, with twice the bits
 //! until their balls part. For an occupancy this ends, since `H(p)` is irrational for every float `p` but 0, 1/2 and 1
-//! ([`docs/rounding.md`](crate::book::rounding)); for log-odds it ends if Schanuel's conjecture holds.
+//! ([`docs/rounding.md`](crate::book::rounding)), and for `e^x`, `ln x` and the Gaussian, since `e^x` is transcendental for
+//! every float `x` but 0; for log-odds it ends if Schanuel's conjecture holds.
 //!
 //! The forms avoid every division by `ln 2` and every subtraction of near equals:
 //! `H ln 2 = q (n ln 2 + y D(y) + (1-q) D(q))` for `q = (1-y) 2^-n`, and `H ln 2 = q (l + D(q))` for `q = 1 / (1 + e^l)`, with
@@ -12,10 +13,10 @@
 use super::big::Ball;
 use super::enclose::{distance_from_unknown, is_small, minor};
 use super::enclosure::Midpoint;
-use super::fixed::exp2_neg;
+use super::fixed::{exp_neg as fixed_exp_neg, scale_117};
 
 /// Tries 256 bits of fraction, and doubles them until the comparison is decided.
-fn decide(compare: impl Fn(usize) -> Option<bool>) -> bool {
+pub(super) fn decide(compare: impl Fn(usize) -> Option<bool>) -> bool {
     let mut fraction = 4;
     loop {
         if let Some(above) = compare(fraction) {
@@ -74,11 +75,23 @@ fn complement(unit: Ball, midpoint: Midpoint) -> Ball {
     unit.minus(&part)
 }
 
+/// `y` and `k` with `e^-l = y 2^-k`, `y` in `(0.49, 1]`, given `t = l / ln 2` of scale 116 within `2^-8`.
+pub(super) fn exp_neg(l: Ball, t: u128) -> (Ball, i32) {
+    // Less than t by 2^-6 or more, so that k ln 2 cannot exceed l.
+    let k = (t.saturating_sub(1 << 110) >> 116) as u64;
+    let multiple = Ball::ln2(l.fraction()).scaled(k, 0);
+    (l.minus(&multiple).exp_neg(), k as i32)
+}
+
+/// The same for `l = m 2^e < 2^10`.
+fn exp_neg_dyadic(m: u64, e: i32, fraction: usize) -> (Ball, i32) {
+    let (_, _, t) = fixed_exp_neg(scale_117(m, e));
+    exp_neg(Ball::dyadic(m, e, fraction), t)
+}
+
 /// `q 2^k` and `k`, for `q = 1 / (1 + e^l)` and `l = m 2^e < 2^10`.
 fn minor_occupancy(m: u64, e: i32, fraction: usize) -> (Ball, i32) {
-    let (_, k, _) = exp2_neg(m, e);
-    let rest = Ball::dyadic(m, e, fraction).minus(&Ball::ln2(fraction).scaled(k as u64, 0));
-    let y = rest.exp_neg();
+    let (y, k) = exp_neg_dyadic(m, e, fraction);
     let one_and_x = y.scaled(1, -k).plus(&Ball::dyadic(1, 0, fraction));
     (y.divided_by(&one_and_x), k)
 }
@@ -125,6 +138,31 @@ pub(super) fn occupancy(m: u64, e: i32, negative: bool, midpoint: Midpoint) -> b
             q.is_above(&Ball::dyadic(midpoint.m, midpoint.exponent + k, fraction))
         } else {
             complement(Ball::dyadic(1, 0, fraction), midpoint).is_above(&q.scaled(1, -k))
+        }
+    })
+}
+
+/// Whether `e^±l` is above the midpoint, for `l = m 2^e < 2^10`.
+pub(super) fn exp(m: u64, e: i32, negative: bool, midpoint: Midpoint) -> bool {
+    decide(|fraction| {
+        let (y, k) = exp_neg_dyadic(m, e, fraction);
+        if negative {
+            y.is_above(&Ball::dyadic(midpoint.m, midpoint.exponent + k, fraction))
+        } else {
+            // e^l > c if and only if 1 > c e^-l.
+            Ball::dyadic(1, 0, fraction).is_above(&y.scaled(midpoint.m, midpoint.exponent - k))
+        }
+    })
+}
+
+/// Whether `|ln x|` is above the midpoint `c`, for `x = m 2^e`: `e^-c > x` below 1, `x e^-c > 1` above.
+pub(super) fn ln(m: u64, e: i32, below_one: bool, midpoint: Midpoint) -> bool {
+    decide(|fraction| {
+        let (y, k) = exp_neg_dyadic(midpoint.m, midpoint.exponent, fraction);
+        if below_one {
+            y.is_above(&Ball::dyadic(m, e + k, fraction))
+        } else {
+            y.scaled(m, e - k).is_above(&Ball::dyadic(1, 0, fraction))
         }
     })
 }

@@ -14,7 +14,7 @@ pub(super) const ONE_120: u128 = 1 << 120;
 pub(super) const LOG_ERROR: u128 = 1 << 43;
 /// The error of [`log2_1p_over`] for `|z| < 2^-8`, cut by less than one unit, in units of `2^-112`: below `2^-70`.
 pub(super) const LOG_1P_OVER_ERROR: u128 = 1 << 42;
-/// The error of [`exp2_neg`]'s mantissa, in units of `2^-126`: below `2^-78`.
+/// The error of [`exp2_neg`], in units of `2^-126`: below `2^-78`.
 pub(super) const EXP_ERROR: u128 = 1 << 48;
 /// The error of [`information_series`] and [`information_series_log_odds`] before the last factor, in units of `2^-127`.
 pub(super) const SERIES_ERROR: u128 = 1 << 55;
@@ -72,21 +72,32 @@ pub(super) fn log2_1p_over(magnitude: u64, negative: bool) -> u128 {
     ((INV_LN2 >> 15) as i128 + z_q) as u128
 }
 
-/// `e^-l = y 2^-k` with `1/2 - 2^-78 <= y <= 1` of scale 126, and `l / ln 2` of scale 116, for `l = m 2^e < 2^10`.
-///
-/// The errors: `y` below [`EXP_ERROR`]; `l / ln 2` below 4 units.
+/// `m 2^e < 2^10`, scale 117; cut by less than one unit, and only below `2^-64`.
 #[inline]
-pub(super) fn exp2_neg(m: u64, e: i32) -> (u128, i32, u128) {
+pub(super) fn scale_117(m: u64, e: i32) -> u128 {
     let shift = 117 + e;
-    let l = if shift >= 0 { u128::from(m) << shift } else { shift_right(u128::from(m), -shift) };
-    let t = mul_high(l, INV_LN2);
-    let fraction = t & ((1 << 116) - 1);
-    let i = (fraction >> 108) as usize;
-    let g = fraction & ((1 << 108) - 1);
+    if shift >= 0 { u128::from(m) << shift } else { shift_right(u128::from(m), -shift) }
+}
+
+/// `2^-t`, scale 126, for `t` in `[0, 1)` of scale 116; error below [`EXP_ERROR`], also if `t` is off by `2^9` units.
+#[inline]
+pub(super) fn exp2_neg(t: u128) -> u128 {
+    let i = (t >> 108) as usize;
+    let g = t & ((1 << 108) - 1);
     let g_71 = (g >> 45) as i64;
     let slope = LN2 - ((i128::from(g_71) * i128::from(horner(&EXP_R, g_71, 71))) >> 7) as u128;
     let power = (1 << 127) - mul_high(g << 12, slope);
-    (mul_high(EXP_TABLE[i], power), (t >> 116) as i32, t)
+    mul_high(EXP_TABLE[i], power)
+}
+
+/// `e^-l = y 2^-k` with `1/2 - 2^-78 <= y <= 1` of scale 126, and `t = l / ln 2` of scale 116, for `l < 2^10` of scale 117.
+///
+/// The errors: `y` below [`EXP_ERROR`], also if `l` is off by `2^9` units; `t` below 2 units if `l` was cut by less than one.
+#[inline]
+pub(super) fn exp_neg(l: u128) -> (u128, i32, u128) {
+    let t = mul_high(l, INV_LN2);
+    let fraction = t & ((1 << 116) - 1);
+    (exp2_neg(fraction), (t >> 116) as i32, t)
 }
 
 /// `I = d^2 (1 / (2 ln 2) + d^2 V(d^2))` near `p = 1/2`, for `|2p - 1| = d 2^-e < 2^-4`, `d < 2^53`.

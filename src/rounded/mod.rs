@@ -1,4 +1,4 @@
-//! Correct rounding of entropy, information and occupancy by Ziv's strategy, in integers.
+//! Correct rounding of entropy, information and occupancy, of `e^x`, `ln x` and the Gaussian, by Ziv's strategy, in integers.
 //!
 //! 1. [`enclose`] computes the value in 128-bit fixed point, with a proved bound on its error ([`fixed`]).
 //! 2. [`Enclosure::round`] rounds it, if the whole enclosure rounds to one float ([`enclosure`]).
@@ -16,8 +16,10 @@ mod enclose;
 mod enclosure;
 mod exact;
 mod fixed;
+mod gaussian;
 
-pub(crate) use enclosure::round_limbs;
+pub(crate) use enclosure::{round_integer, round_limbs};
+pub(crate) use gaussian::gaussian;
 
 use crate::real::Real;
 use enclosure::{Enclosure, Midpoint, Rounded};
@@ -68,7 +70,44 @@ pub(crate) fn occupancy_from_log_odds<T: Real>(l: T) -> T {
     settle(value, |midpoint| exact::occupancy(m, e, negative, midpoint))
 }
 
-/// Whether `|l| >= 2^10`: then `e^-|l| < 2^-1477`, and `H` and `1 - p` are below half of the smallest subnormal.
+/// `e^x`; NaN at NaN.
+pub(crate) fn exp<T: Real>(x: T) -> T {
+    if x.is_nan() {
+        return x;
+    }
+    if x.is_zero() {
+        return T::one();
+    }
+    let negative = x < T::zero();
+    if beyond_exponential(x) {
+        return if negative { T::zero() } else { T::infinity() };
+    }
+    let (m, e) = normalised(x);
+    settle(enclose::exp(m, e, negative), |midpoint| exact::exp(m, e, negative, midpoint))
+}
+
+/// `ln x`; `-inf` at 0, NaN below 0 and at NaN.
+pub(crate) fn ln<T: Real>(x: T) -> T {
+    if x.is_nan() || x < T::zero() {
+        return T::nan();
+    }
+    if x.is_zero() {
+        return T::neg_infinity();
+    }
+    if x == T::one() {
+        return T::zero();
+    }
+    if x.is_infinite() {
+        return x;
+    }
+    let (m, e) = normalised(x);
+    let below_one = x < T::one();
+    let magnitude: T = settle(enclose::ln(m, e), |midpoint| exact::ln(m, e, below_one, midpoint));
+    if below_one { -magnitude } else { magnitude }
+}
+
+/// Whether `|l| >= 2^10`: then `e^-|l| < 2^-1477`, and `H`, `1 - p` and `e^-|l|` are below half of the smallest subnormal, and
+/// `e^|l|` above the largest number.
 fn beyond_exponential<T: Real>(l: T) -> bool {
     l.abs().widen() >= 1024.0
 }

@@ -61,6 +61,11 @@ fn each(kinds: &[Kind], seed: u64, count: usize) -> impl Iterator<Item = (f64, u
     })
 }
 
+/// A number in `(1, 2]` for one in `(0, 1)`.
+fn above_one(x: f64) -> f64 {
+    1.0 + x.max(f64::EPSILON)
+}
+
 fn assert_holds(enclosure: Enclosure, exact: &Wide, what: f64) {
     let Enclosure { lo, width, exponent } = enclosure;
     let [low, high] = [lo, lo + width].map(|end| BigInt::from(end) << (SCALE as i32 + exponent));
@@ -69,8 +74,40 @@ fn assert_holds(enclosure: Enclosure, exact: &Wide, what: f64) {
     assert!(width < lo >> 65, "{enclosure:?} at {what:e}");
 }
 
+/// `(x - z)^2 / (2 s^2)`, for signs that agree and that differ and for any gap between `x` and `z`.
+#[test]
+fn the_square_is_within_its_error() {
+    let mut random = Random(53);
+    let mut significand = || 1 << 52 | random.next() >> 12;
+    for j in 0..400 {
+        let (large, small, m) = ((significand(), -52), (significand() >> 1, -52 - j % 110), significand());
+        let distance = gaussian::Distance { large, small, same_sign: j % 2 == 0 };
+        let (d, e) = distance.cut();
+        let r = gaussian::half_square(d, e, m).expect("below 2^10");
+        let [large, small] = [large, small].map(|(m, e)| Wide::dyadic(m, e));
+        let exact = if j % 2 == 0 { large.minus(&small) } else { large.plus(&small) };
+        let ratio = exact.over(&Wide::dyadic(m, -52));
+        let square = ratio.times(&ratio).over(&Wide::dyadic(2, 0));
+        let [lo, hi] = square.bounds().map(|end| end >> (SCALE - 117));
+        let (r, error) = (BigInt::from(r), BigInt::from(1 << 9));
+        assert!(&r - lo < error && hi - &r < error, "{j}");
+    }
+}
+
 #[test]
 fn the_enclosures_hold_the_values() {
+    for (x, m, e) in each(&LOG_ODDS, 29, 50) {
+        let power = Wide::dyadic(m, e).exp_neg();
+        assert_holds(enclose::exp(m, e, true), &power, x);
+        assert_holds(enclose::exp(m, e, false), &Wide::dyadic(1, 0).over(&power), x);
+    }
+    for (x, m, e) in each(&OCCUPANCIES, 30, 50) {
+        assert_holds(enclose::ln(m, e), &Wide::dyadic(m, e).minus_ln(), x);
+        // Above 1: ln x = -ln (1/x).
+        let (m, e) = normalised(above_one(x));
+        let inverse = Wide::dyadic(1, 0).over(&Wide::dyadic(m, e));
+        assert_holds(enclose::ln(m, e), &inverse.minus_ln(), above_one(x));
+    }
     for (p, m, e) in each(&OCCUPANCIES, 31, 50) {
         let (entropy, information) = enclose::from_occupancy(m, e);
         let exact = wide::from_occupancy(&Wide::dyadic(m, e));
@@ -133,6 +170,19 @@ fn comparison_agrees<T: Real>(count: usize) {
 fn the_comparison_alone_agrees_with_both_steps() {
     comparison_agrees::<f64>(100);
     comparison_agrees::<f32>(50);
+}
+
+#[test]
+fn the_comparison_of_exponential_and_logarithm_agrees_with_both_steps() {
+    for (x, m, e) in each(&LOG_ODDS, 59, 100) {
+        assert_parted(exp(-x), -x, |midpoint| exact::exp(m, e, true, midpoint));
+        assert_parted(exp(x), x, |midpoint| exact::exp(m, e, false, midpoint));
+    }
+    for (x, m, e) in each(&OCCUPANCIES, 61, 100) {
+        assert_parted(-ln(x), x, |midpoint| exact::ln(m, e, true, midpoint));
+        let (m, e) = normalised(above_one(x));
+        assert_parted(ln(above_one(x)), above_one(x), |midpoint| exact::ln(m, e, false, midpoint));
+    }
 }
 
 /// Subnormal results: the midpoints are few and the comparison sees them at other scales.

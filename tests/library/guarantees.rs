@@ -1,6 +1,7 @@
 //! The table of guarantees: `docs/guarantees.md` says the same, and what it cites is there.
 
-use mean_information::{Tally, cell, map};
+use mean_information::sensor::{GaussianSensor, InverseSensorModel};
+use mean_information::{Tally, cell, elementary, map};
 use std::path::Path;
 
 /// How a bound is known.
@@ -25,8 +26,11 @@ macro_rules! guarantees {
 }
 
 /// Every function with a bound on its error.
-pub(crate) fn guarantees() -> [Guarantee; 9] {
+pub(crate) fn guarantees() -> [Guarantee; 14] {
     guarantees! {
+        elementary::exp::<f64> => "elementary::exp", 0.5, Proved;
+        elementary::ln::<f64> => "elementary::ln", 0.5, Proved;
+        elementary::sqrt::<f64> => "elementary::sqrt", 0.5, Proved;
         cell::entropy::<f64> => "cell::entropy", 0.5, Proved;
         cell::information::<f64> => "cell::information", 0.5, Proved;
         cell::entropy_from_log_odds::<f64> => "cell::entropy_from_log_odds", 0.5, Proved;
@@ -36,6 +40,8 @@ pub(crate) fn guarantees() -> [Guarantee; 9] {
         Tally::<f64>::information => "Tally::information", 0.5, Proved;
         Tally::<f64>::mean_information => "Tally::mean_information", 0.5, Proved;
         map::Grid::<map::encoding::Percent>::pooled => "Grid::pooled", 0.5, Proved;
+        GaussianSensor::<f64>::occupancy => "GaussianSensor::occupancy", 0.5, Proved;
+        GaussianSensor::<f64>::reach => "GaussianSensor::reach", 2.0, Proved;
     }
 }
 

@@ -3,6 +3,8 @@
 mod cell;
 mod common;
 mod digest;
+mod elementary;
 mod guarantees;
 mod map;
+mod sensor;
 mod tally;

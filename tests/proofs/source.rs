@@ -7,7 +7,7 @@ use std::fs;
 pub(crate) struct Source {
     /// All lines, trimmed.
     pub(crate) lines: Vec<String>,
-    /// The statements of each function of `fixed.rs` and `enclose.rs`.
+    /// The statements of each function of `fixed.rs`, `enclose.rs` and `gaussian.rs`.
     pub(crate) functions: BTreeMap<String, Vec<String>>,
     /// Integer constants; the elements of an array are `NAME_0`, `NAME_1`, ....
     pub(crate) constants: BTreeMap<String, Integer>,
@@ -37,10 +37,13 @@ impl Integer {
 
 impl Source {
     pub(crate) fn read() -> Self {
-        let [fixed, enclose, constants, enclosure] = ["fixed", "enclose", "constants", "enclosure"]
-            .map(|name| fs::read_to_string(format!("src/rounded/{name}.rs")).expect("the source is there"));
-        let all = [fixed.as_str(), &enclose, &constants, &enclosure].join("\n");
-        let code = without_comments(&[fixed.as_str(), &enclose].join("\n"));
+        let [fixed, enclose, gaussian, constants, enclosure] =
+            ["fixed", "enclose", "gaussian", "constants", "enclosure"].map(|name| {
+                fs::read_to_string(format!("src/rounded/{name}.rs")).expect("the source is there")
+            });
+        let quoted = [fixed, enclose, gaussian].join("\n");
+        let all = [quoted.as_str(), &constants, &enclosure].join("\n");
+        let code = without_comments(&quoted);
         Self {
             lines: all.lines().map(|line| line.trim().to_owned()).collect(),
             functions: functions(&code),
@@ -56,11 +59,15 @@ fn without_comments(text: &str) -> String {
 
 fn functions(code: &str) -> BTreeMap<String, Vec<String>> {
     let mut functions = BTreeMap::new();
-    for text in code.split("fn ").skip(1) {
+    let texts: Vec<&str> = code.split("fn ").collect();
+    for (before, text) in texts.iter().zip(&texts[1..]) {
         let name: String = text.chars().take_while(|&c| c.is_alphanumeric() || c == '_').collect();
         let body =
             text.split_once(") -> ").and_then(|(_, rest)| rest.split_once(" {\n")).expect("a function").1;
-        let body = body.split_once("\n}").expect("a function ends").0;
+        // A method is indented, and so is its end.
+        let line = before.rsplit('\n').next().unwrap_or("");
+        let indent = &line[..line.len() - line.trim_start().len()];
+        let body = body.split_once(&format!("\n{indent}}}")).expect("a function ends").0;
         functions.insert(name, statements(body));
     }
     functions

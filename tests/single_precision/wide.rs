@@ -43,7 +43,7 @@ impl Wide {
         Self { lo: &self.lo - &other.hi, hi: &self.hi - &other.lo }
     }
 
-    fn times(&self, other: &Self) -> Self {
+    pub(crate) fn times(&self, other: &Self) -> Self {
         Self { lo: (&self.lo * &other.lo) >> SCALE, hi: ((&self.hi * &other.hi) >> SCALE) + 1 }
     }
 

@@ -1,0 +1,53 @@
+//! The elementary functions that the rest of the crate is built on, correctly rounded and the same on every platform.
+//!
+//! They use the kernels of the entropy ([`rounding`](crate::book::rounding)). No ties: `e^x` and `ln x` are transcendental
+//! for every algebraic `x` but 0 and 1 (Lindemann), and a square root that lies on a midpoint would have a square with too many
+//! bits to be a float.
+
+use crate::real::Real;
+use crate::rounded;
+
+/// `e^x`, correctly rounded (proved).
+///
+/// Special cases: 0 at `-inf`, `inf` at `inf` and on overflow, NaN at NaN.
+///
+/// ```
+/// assert_eq!(mean_information::elementary::exp(-2.0_f64), 0.1353352832366127);
+/// ```
+pub fn exp<T: Real>(x: T) -> T {
+    rounded::exp(x)
+}
+
+/// `ln x`, correctly rounded (proved).
+///
+/// Special cases: `-inf` at 0, `inf` at `inf`, NaN below 0 and at NaN.
+///
+/// ```
+/// assert_eq!(mean_information::elementary::ln(10.0_f64), 2.302585092994046);
+/// ```
+pub fn ln<T: Real>(x: T) -> T {
+    rounded::ln(x)
+}
+
+/// The square root of `x`, correctly rounded (proved: an integer square root and its remainder).
+///
+/// Special cases: `±0` at `±0`, `inf` at `inf`, NaN below 0 and at NaN.
+///
+/// ```
+/// assert_eq!(mean_information::elementary::sqrt(2.0_f64), 1.4142135623730951);
+/// ```
+pub fn sqrt<T: Real>(x: T) -> T {
+    if x.is_nan() || x < T::zero() {
+        return T::nan();
+    }
+    if x.is_zero() || x.is_infinite() {
+        return x;
+    }
+    let (m, e) = x.parts();
+    // An even exponent, and 118 bits or more, so that the root has 59 or more: enough to round 53.
+    let shift = m.leading_zeros() as i32 + 54;
+    let shift = shift + ((e - shift) & 1);
+    let square = u128::from(m) << shift;
+    let root = square.isqrt();
+    rounded::round_integer(root, (e - shift) / 2, root * root != square)
+}

@@ -1,0 +1,160 @@
+//! Inverse sensor models: the occupancy that one range reading gives to a point at a distance `ρ` from the sensor (Eq. 5).
+
+use crate::elementary::{ln, sqrt};
+use crate::error::Error;
+use crate::real::Real;
+use crate::rounded;
+
+/// The occupancy that a reading of a range sensor gives to points along its beam.
+///
+/// Implement it to build maps from a model of your own.
+pub trait InverseSensorModel {
+    /// The type of distances and occupancies.
+    type Float: Real;
+
+    /// The occupancy at distance `rho` (metres) from the sensor, in `[0, 1]`; NaN at NaN.
+    fn occupancy(&self, rho: Self::Float) -> Self::Float;
+
+    /// A distance (metres) beyond which nothing is observed: `occupancy` is 1/2 at every greater `rho`.
+    fn reach(&self) -> Self::Float;
+}
+
+/// Eq. 5: a range `z` read with Gaussian noise of standard deviation `σ`,
+/// `p(ρ) = exp(-((ρ - z) / (σ √2))^2)` for `ρ <= z + σ √(ln 4)`, and 1/2 beyond.
+///
+/// ```
+/// use mean_information::sensor::{GaussianSensor, InverseSensorModel};
+/// let sensor = GaussianSensor::new(2.0_f64, 0.2)?;
+/// assert_eq!(sensor.occupancy(2.0), 1.0);
+/// assert_eq!(sensor.occupancy(1.75), 0.4578333617716143);
+/// assert_eq!(sensor.occupancy(2.25), 0.5); // beyond 2 + 0.2 √(ln 4) = 2.2355
+/// # Ok::<(), mean_information::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GaussianSensor<T> {
+    range: T,
+    sigma: T,
+}
+
+/// The error if `value` is not positive and finite.
+pub(crate) fn positive<T: Real>(what: &'static str, value: T) -> Result<T, Error> {
+    if value > T::zero() && value.is_finite() {
+        Ok(value)
+    } else {
+        Err(Error::out_of_range(what, value.widen(), "positive and finite, in metres"))
+    }
+}
+
+impl<T: Real> GaussianSensor<T> {
+    /// A reading of `range` with standard deviation `sigma`, both in metres.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if one of them is not positive and finite.
+    pub fn new(range: T, sigma: T) -> Result<Self, Error> {
+        Ok(Self { range: positive("range", range)?, sigma: positive("sigma", sigma)? })
+    }
+
+    /// `z`, in metres.
+    pub fn range(&self) -> T {
+        self.range
+    }
+
+    /// `σ`, in metres.
+    pub fn sigma(&self) -> T {
+        self.sigma
+    }
+}
+
+impl<T: Real> InverseSensorModel for GaussianSensor<T> {
+    type Float = T;
+
+    /// `p(ρ)`, correctly rounded (proved): as if computed exactly from the three floats and rounded once.
+    ///
+    /// Any float will do for `ρ`: before the sensor (`ρ < 0`) the formula goes on, to 0 at `-inf`; 1/2 at `inf`; NaN at NaN.
+    fn occupancy(&self, rho: T) -> T {
+        if rho.is_nan() {
+            return rho;
+        }
+        if rho.is_infinite() {
+            return if rho > T::zero() { T::HALF } else { T::zero() };
+        }
+        let p = rounded::gaussian(rho, self.range, self.sigma);
+        // Rounding is monotone: beyond the edge the Gaussian is below 1/2, and its float at most 1/2.
+        if rho > self.range && p <= T::HALF { T::HALF } else { p }
+    }
+
+    /// `z + σ √(ln 4)`, within 2 ulp (proved in [`rounding`](crate::book::rounding)), and not short of it: `occupancy` is 1/2 at
+    /// the next float and at every one beyond. Infinite where the sum overflows.
+    fn reach(&self) -> T {
+        let two = T::one() + T::one();
+        let mut reach = self.range + self.sigma * sqrt(two * ln(two));
+        // The roundings may have left it short by two floats. The model falls beyond z: one float at 1/2 speaks for the rest.
+        while reach.is_finite() {
+            let (m, e) = reach.parts();
+            let next = T::from_parts(m + 1, e);
+            if self.occupancy(next) == T::HALF {
+                break;
+            }
+            reach = next;
+        }
+        reach
+    }
+}
+
+/// Steps: free up to the obstacle, occupied over its thickness, unknown behind it
+/// (the inverse range sensor model of Thrun, Burgard and Fox, *Probabilistic Robotics*, table 9.2).
+///
+/// ```
+/// use mean_information::sensor::{InverseSensorModel, SteppedSensor};
+/// let sensor = SteppedSensor::new(2.0_f64, 0.5, 0.25, 0.875)?;
+/// assert_eq!([1.5, 1.75, 2.25, 2.5].map(|rho| sensor.occupancy(rho)), [0.25, 0.875, 0.875, 0.5]);
+/// # Ok::<(), mean_information::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SteppedSensor<T> {
+    near: T,
+    far: T,
+    free: T,
+    occupied: T,
+}
+
+impl<T: Real> SteppedSensor<T> {
+    /// A reading of `range` at an obstacle of the given `thickness` (metres) about it, with the occupancies of free space and
+    /// of the obstacle. The obstacle lies from `range - thickness / 2` to `range + thickness / 2`, each rounded once, ends
+    /// included.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if `range` or `thickness` is not positive and finite, `free` not in `[0, 1/2]`, or `occupied` not in
+    /// `[1/2, 1]`.
+    pub fn new(range: T, thickness: T, free: T, occupied: T) -> Result<Self, Error> {
+        let (range, thickness) = (positive("range", range)?, positive("thickness", thickness)?);
+        if !(free >= T::zero() && free <= T::HALF) {
+            return Err(Error::out_of_range("occupancy of free space", free.widen(), "0 to 1/2"));
+        }
+        if !(occupied >= T::HALF && occupied <= T::one()) {
+            return Err(Error::out_of_range("occupancy of the obstacle", occupied.widen(), "1/2 to 1"));
+        }
+        let half = thickness * T::HALF;
+        Ok(Self { near: range - half, far: range + half, free, occupied })
+    }
+}
+
+impl<T: Real> InverseSensorModel for SteppedSensor<T> {
+    type Float = T;
+
+    fn occupancy(&self, rho: T) -> T {
+        if rho.is_nan() {
+            rho
+        } else if rho < self.near {
+            self.free
+        } else if rho <= self.far {
+            self.occupied
+        } else {
+            T::HALF
+        }
+    }
+
+    fn reach(&self) -> T {
+        self.far
+    }
+}

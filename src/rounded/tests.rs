@@ -43,8 +43,9 @@ const OCCUPANCIES: [Kind; 5] = [
     ("near 1", |random| 1.0 - random.shallow(45) / 2.0),
 ];
 
-const LOG_ODDS: [Kind; 4] = [
+const LOG_ODDS: [Kind; 5] = [
     ("up to 4", |random| 4.0 * random.unit()),
+    ("about 8 ln 2", |random| 5.5 + random.unit() / 4.0),
     ("up to 40", |random| 40.0 * random.unit()),
     ("near 0", |random| random.shallow(200)),
     ("up to 300", |random| 300.0 * random.unit()),

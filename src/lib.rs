@@ -33,7 +33,9 @@
 //! | [`tally`] | the exact, mergeable sums over a map | 2, 4 |
 //! | [`map`] | grids, cell encodings, pooling | |
 //! | [`sensor`] | inverse sensor models: what a range reading says of a point | 5 |
-//! | [`real`] | the two scalar types | |
+//! | [`estimate`] | results with an estimated error, and results with a proved enclosure | |
+//! | [`scalar`] | what integrands are written in: floats, intervals, jets | |
+//! | [`real`] | the two formats of floats | |
 //! | [`book`] | the derivation, chapter by chapter, with every claim executed | |
 //!
 //! # What it promises
@@ -60,9 +62,11 @@ extern crate alloc;
 pub mod cell;
 pub mod elementary;
 mod error;
+pub mod estimate;
 pub mod map;
 pub mod real;
 mod rounded;
+pub mod scalar;
 pub mod sensor;
 pub mod tally;
 

@@ -1,0 +1,81 @@
+//! Results that are not exact: an [`Estimate`] says how far off it believes to be, an [`Enclosure`] contains the truth.
+//!
+//! They are different types, so that an estimate cannot pass for a proof. Both say how the computation ended.
+
+use crate::real::Real;
+
+/// How a computation ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Status<T> {
+    /// Within the tolerance asked for.
+    Converged,
+    /// The limit on evaluations came first. The result holds, with the error or the width it states.
+    EvaluationLimit,
+    /// Rounding errors keep the tolerance out of reach. The result holds, with the error or the width it states.
+    RoundOff,
+    /// The integrand is singular, or too narrow to be resolved by floats, between `lower` and `upper`.
+    Unresolved {
+        /// Where the stretch begins.
+        lower: T,
+        /// Where it ends.
+        upper: T,
+    },
+    /// The integrand was NaN or infinite between `lower` and `upper`: the result means nothing there.
+    NotFinite {
+        /// Where the stretch begins.
+        lower: T,
+        /// Where it ends.
+        upper: T,
+    },
+}
+
+/// A value with the error it is believed to have: not proved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Estimate<T> {
+    /// The value.
+    pub value: T,
+    /// The estimated bound on `|value - truth|`; not negative.
+    pub error: T,
+    /// How the computation ended.
+    pub status: Status<T>,
+    /// How many times the integrand was evaluated.
+    pub evaluations: u64,
+}
+
+/// Two floats that are proved to have the true value between them, ends included.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Enclosure<T> {
+    /// Not above the true value.
+    pub lower: T,
+    /// Not below the true value.
+    pub upper: T,
+    /// How the computation ended.
+    pub status: Status<T>,
+    /// How many times the integrand was evaluated, at a point or over an interval.
+    pub evaluations: u64,
+}
+
+impl<T: Real> Enclosure<T> {
+    /// Whether `x` lies between the ends.
+    ///
+    /// ```
+    /// use mean_information::estimate::{Enclosure, Status};
+    /// let third = Enclosure { lower: 0.333_f64, upper: 0.334, status: Status::Converged, evaluations: 2 };
+    /// assert!(third.contains(1.0 / 3.0) && !third.contains(0.335));
+    /// ```
+    pub fn contains(&self, x: T) -> bool {
+        self.lower <= x && x <= self.upper
+    }
+
+    /// `upper - lower`, rounded to nearest.
+    ///
+    /// ```
+    /// use mean_information::estimate::{Enclosure, Status};
+    /// let third = Enclosure { lower: 0.25_f64, upper: 0.375, status: Status::Converged, evaluations: 2 };
+    /// assert_eq!(third.width(), 0.125);
+    /// ```
+    pub fn width(&self) -> T {
+        self.upper - self.lower
+    }
+}

@@ -33,6 +33,7 @@
 //! | [`tally`] | the exact, mergeable sums over a map | 2, 4 |
 //! | [`map`] | grids, cell encodings, pooling | |
 //! | [`sensor`] | inverse sensor models: what a range reading says of a point | 5 |
+//! | [`limit`] | what the mean information of one scan tends to as cells shrink | 6, 7 |
 //! | [`estimate`] | results with an estimated error, and results with a proved enclosure | |
 //! | [`scalar`] | what integrands are written in: floats, intervals, jets | |
 //! | [`real`] | the two formats of floats | |
@@ -63,6 +64,7 @@ pub mod cell;
 pub mod elementary;
 mod error;
 pub mod estimate;
+pub mod limit;
 pub mod map;
 pub mod real;
 mod rounded;

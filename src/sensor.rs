@@ -137,6 +137,13 @@ impl<T: Real> SteppedSensor<T> {
         let half = thickness * T::HALF;
         Ok(Self { near: range - half, far: range + half, free, occupied })
     }
+
+    /// The stretches before the sensor's reach that are not unknown, nearest first, each with its occupancy.
+    pub(crate) fn observed(&self) -> impl Iterator<Item = ([T; 2], T)> {
+        let near = self.near.max(T::zero());
+        let stretches = [([T::zero(), near], self.free), ([near, self.far], self.occupied)];
+        stretches.into_iter().filter(|&([from, to], p)| from < to && p != T::HALF)
+    }
 }
 
 impl<T: Real> InverseSensorModel for SteppedSensor<T> {

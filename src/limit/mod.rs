@@ -1,5 +1,11 @@
 //! The limit of the mean information as cells shrink (Eqs. 6 and 7), and how far a grid can be from it.
 
+mod model;
+mod repeated;
+
+pub use model::{Piece, RadialModel};
+pub use repeated::RepeatedScans;
+
 /// Which cells the limit belongs to: the weight of the integral in Eq. 6.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Weight {

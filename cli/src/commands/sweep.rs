@@ -4,7 +4,7 @@ use super::Status;
 use crate::failure::Failure;
 use crate::maps::{self, Options, Problem};
 use crate::output::{Files, Writing};
-use crate::plots::{self, Picture, SweepPlot};
+use crate::plots::{self, Drawing, Picture, SweepPlot};
 use crate::sweep::Sweep;
 use clap::Args;
 use std::path::PathBuf;

@@ -1,6 +1,7 @@
 //! Pictures: the information of every cell, and the measures against cell size. Drawn into memory, with the same bytes
 //! on every run and machine.
 
+mod axis;
 mod bitmap;
 mod canvas;
 mod heat_map;
@@ -12,6 +13,10 @@ pub use sweep::SweepPlot;
 
 use crate::failure::Failure;
 use crate::maps::one_line;
+use bitmap::Bitmap;
+use canvas::Canvas;
+use plotters::coord::Shift;
+use plotters::prelude::{DrawingArea, DrawingAreaErrorKind, DrawingBackend, IntoDrawingArea, SVGBackend};
 use std::ffi::OsStr;
 use std::path::Path;
 
@@ -34,6 +39,41 @@ impl Picture {
             Some(ending) if ending == "svg" => Ok(Self::Svg),
             Some(ending) if ending == "png" => Ok(Self::Png),
             _ => Err(Failure::Usage(format!("{}: a picture's name ends in .svg or .png", path.display()))),
+        }
+    }
+}
+
+/// A plot, drawn the same way whatever the form of the picture.
+pub trait Drawing {
+    /// Width and height, in pixels.
+    const SIZE: (u32, u32);
+
+    /// Draws it.
+    ///
+    /// # Errors
+    /// Those of the paper it is drawn on.
+    fn draw_on<B: DrawingBackend>(
+        &self,
+        paper: &DrawingArea<B, Shift>,
+    ) -> Result<(), DrawingAreaErrorKind<B::ErrorType>>;
+
+    /// The bytes of the picture.
+    ///
+    /// # Errors
+    /// None is known.
+    fn draw(&self, picture: Picture) -> Result<Vec<u8>, Failure> {
+        match picture {
+            Picture::Svg => {
+                let mut text = String::new();
+                self.draw_on(&SVGBackend::with_string(&mut text, Self::SIZE).into_drawing_area())
+                    .map_err(drawing_failure)?;
+                Ok(text.into_bytes())
+            }
+            Picture::Png => {
+                let mut picture = Bitmap::new(Self::SIZE.0, Self::SIZE.1);
+                self.draw_on(&Canvas::new(&mut picture).into_drawing_area()).map_err(drawing_failure)?;
+                picture.png().map_err(drawing_failure)
+            }
         }
     }
 }

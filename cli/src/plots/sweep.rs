@@ -1,15 +1,11 @@
 //! Mean information and total entropy against cell size: the contrast behind Fig. 2d of the paper.
 
-use super::bitmap::Bitmap;
-use super::canvas::Canvas;
-use super::{LABEL, Picture, TITLE, drawing_failure};
-use crate::failure::Failure;
+use super::axis::{Axis, power_of_ten};
+use super::{Drawing, LABEL, TITLE};
 use crate::output::short;
 use crate::sweep::{Step, Sweep};
 use plotters::coord::Shift;
-use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint};
 use plotters::prelude::*;
-use std::ops::Range;
 
 const SIZE: (u32, u32) = (900, 780);
 /// The part of an axis above its highest tick, where the legend meets no curve.
@@ -28,31 +24,6 @@ pub struct SweepPlot {
     /// By step, as the decimal logarithm of bits.
     entropy: Vec<(f64, f64)>,
     entropy_label: &'static str,
-}
-
-/// A linear axis with its ticks given.
-#[derive(Clone)]
-struct Axis {
-    range: Range<f64>,
-    ticks: Vec<f64>,
-}
-
-impl Ranged for Axis {
-    type FormatOption = DefaultFormatting;
-    type ValueType = f64;
-
-    fn map(&self, x: &f64, (start, end): (i32, i32)) -> i32 {
-        let part = (x - self.range.start) / (self.range.end - self.range.start);
-        start + (part * f64::from(end - start)).round() as i32
-    }
-
-    fn key_points<Hint: KeyPointHint>(&self, _: Hint) -> Vec<f64> {
-        self.ticks.clone()
-    }
-
-    fn range(&self) -> Range<f64> {
-        self.range.clone()
-    }
 }
 
 /// A panel: its curve, and its vertical axis.
@@ -93,26 +64,10 @@ impl SweepPlot {
             },
         }
     }
+}
 
-    /// The bytes of the picture.
-    ///
-    /// # Errors
-    /// None is known.
-    pub fn draw(&self, picture: Picture) -> Result<Vec<u8>, Failure> {
-        match picture {
-            Picture::Svg => {
-                let mut text = String::new();
-                self.draw_on(&SVGBackend::with_string(&mut text, SIZE).into_drawing_area())
-                    .map_err(drawing_failure)?;
-                Ok(text.into_bytes())
-            }
-            Picture::Png => {
-                let mut picture = Bitmap::new(SIZE.0, SIZE.1);
-                self.draw_on(&Canvas::new(&mut picture).into_drawing_area()).map_err(drawing_failure)?;
-                picture.png().map_err(drawing_failure)
-            }
-        }
-    }
+impl Drawing for SweepPlot {
+    const SIZE: (u32, u32) = SIZE;
 
     fn draw_on<B: DrawingBackend>(
         &self,
@@ -152,7 +107,9 @@ impl SweepPlot {
             },
         )
     }
+}
 
+impl SweepPlot {
     fn draw_panel<B: DrawingBackend>(
         &self,
         area: &DrawingArea<B, Shift>,
@@ -200,8 +157,4 @@ impl SweepPlot {
             .label_font(LABEL)
             .draw()
     }
-}
-
-fn power_of_ten(exponent: i32) -> String {
-    format!("1e{exponent}").parse().map_or(String::new(), short)
 }

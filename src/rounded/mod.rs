@@ -78,7 +78,7 @@ pub(crate) fn exp<T: Real>(x: T) -> T {
     if x.is_zero() {
         return T::one();
     }
-    let negative = x < T::zero();
+    let negative = x.is_sign_negative();
     if beyond_exponential(x) {
         return if negative { T::zero() } else { T::infinity() };
     }

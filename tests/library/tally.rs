@@ -1,7 +1,7 @@
 //! The sums over a map: what they must not depend on, to the bit, and their rounding against integer arithmetic.
 
 use super::common::{cell, mirrorable, occupancy, power};
-use mean_information::cell::{Cell, information};
+use mean_information::cell::{Cell, entropy, information};
 use mean_information::{ExactSum, Tally};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -39,6 +39,15 @@ proptest! {
         prop_assert_eq!(padded.mean_information().to_bits(), bare.mean_information().to_bits());
         prop_assert_eq!(padded.information().to_bits(), bare.information().to_bits());
         prop_assert_eq!(padded.unknown(), bare.unknown() + padding);
+    }
+
+    /// A power of two times a float is a float.
+    #[test]
+    fn equal_cells_have_their_multiple_of_the_information_and_of_the_entropy(p in occupancy(), k in 1_i32..40) {
+        let mut tally = Tally::new();
+        tally.add_many(cell(p), 1 << k);
+        prop_assert_eq!(tally.information().to_bits(), (information(p) * power(k)).to_bits());
+        prop_assert_eq!(tally.entropy().to_bits(), (entropy(p) * power(k)).to_bits());
     }
 
     #[test]

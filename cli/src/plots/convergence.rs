@@ -1,0 +1,152 @@
+//! Mean information of grids against cell size, with the limits and the proved bands about them: Fig. 5 of the paper, for
+//! both kinds of grid.
+
+use super::axis::Axis;
+use super::{Drawing, LABEL, TITLE};
+use crate::convergence::{Convergence, GridKind, Series};
+use crate::output::{decimal_exponent, short};
+use plotters::coord::Shift;
+use plotters::prelude::*;
+
+const SIZE: (u32, u32) = (900, 620);
+/// The part of the vertical axis above the curves, where the legend meets none.
+const LEGEND_ROOM: f64 = 0.45;
+
+/// One panel, the cell size on a logarithmic axis.
+#[derive(Debug)]
+pub struct ConvergencePlot<'a> {
+    convergence: &'a Convergence,
+}
+
+impl<'a> ConvergencePlot<'a> {
+    /// The plot of `convergence`.
+    pub fn new(convergence: &'a Convergence) -> Self {
+        Self { convergence }
+    }
+
+    /// The cell sizes of all rows as decimal logarithms, from the smallest.
+    fn logarithms(&self) -> Vec<f64> {
+        let rows = self.convergence.series.iter().flat_map(|series| &series.rows);
+        let mut logarithms: Vec<f64> = rows.map(|row| libm::log10(row.resolution)).collect();
+        logarithms.sort_by(f64::total_cmp);
+        logarithms.dedup();
+        logarithms
+    }
+
+    fn horizontal(&self) -> Axis {
+        let logarithms = self.logarithms();
+        let (first, last) = (logarithms[0], logarithms[logarithms.len() - 1]);
+        let margin = 0.03 * (last - first) + 0.02;
+        let range = first - margin..last + margin;
+        // 1, 2 and 5 times powers of ten, or the powers alone where they are many.
+        let digits: &[f64] = if last - first > 3.0 { &[1.0] } else { &[1.0, 2.0, 5.0] };
+        let decades = range.start.floor() as i32..=range.end.ceil() as i32;
+        let ticks = decades.flat_map(|n| digits.iter().map(move |d| f64::from(n) + libm::log10(*d)));
+        Axis { ticks: ticks.filter(|x| range.contains(x)).collect(), range }
+    }
+
+    /// From below the lowest value and limit to above the highest, in steps of 1, 2 or 5 times a power of ten; the bands are
+    /// cut to it.
+    fn vertical(&self) -> Axis {
+        let of_series = |series: &Series| {
+            series.rows.iter().map(|row| row.mean_information).chain([series.limit]).collect::<Vec<_>>()
+        };
+        let values: Vec<f64> = self.convergence.series.iter().flat_map(of_series).collect();
+        let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let span = (high - low).max(1e-3);
+        let rough = span / 5.0;
+        let decade: f64 = format!("1e{}", decimal_exponent(rough)).parse().unwrap_or(rough);
+        let step = decade * [1.0, 2.0, 5.0, 10.0].into_iter().find(|m| m * decade >= rough).unwrap_or(10.0);
+        let (first, last) = ((low / step - 0.3).floor(), (high / step + 0.3).ceil());
+        let ticks = (first as i64..=last as i64).map(|n| n as f64 * step).collect();
+        Axis { range: first * step..(last + LEGEND_ROOM * (last - first)) * step, ticks }
+    }
+}
+
+fn colour(kind: GridKind) -> RGBColor {
+    match kind {
+        GridKind::Polar => RGBColor(0, 90, 170),
+        GridKind::Cartesian => RGBColor(190, 75, 0),
+    }
+}
+
+impl Drawing for ConvergencePlot<'_> {
+    const SIZE: (u32, u32) = SIZE;
+
+    fn draw_on<B: DrawingBackend>(
+        &self,
+        paper: &DrawingArea<B, Shift>,
+    ) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
+        paper.fill(&WHITE)?;
+        let Convergence { range, sigma, .. } = *self.convergence;
+        let title = format!("A circular room: range {} m, sigma {} m", short(range), short(sigma));
+        let paper = paper.titled(&title, TITLE.into_font().color(&BLACK))?;
+        let (horizontal, vertical) = (self.horizontal(), self.vertical());
+        let ends = [horizontal.range.start, horizontal.range.end];
+        let inside = |y: f64| y.clamp(vertical.range.start, vertical.range.end);
+        let mut chart = ChartBuilder::on(&paper)
+            .margin(12)
+            .margin_right(28)
+            .set_label_area_size(LabelAreaPosition::Left, 104)
+            .set_label_area_size(LabelAreaPosition::Bottom, 56)
+            .build_cartesian_2d(horizontal, vertical.clone())?;
+        chart
+            .configure_mesh()
+            .max_light_lines(0)
+            .bold_line_style(RGBColor(220, 220, 220))
+            .axis_style(BLACK)
+            .label_style(LABEL)
+            .axis_desc_style(LABEL)
+            .x_desc("cell size (m)")
+            .y_desc("mean information (bits / cell)")
+            .x_label_formatter(&|logarithm| short(libm::exp10(*logarithm)))
+            .y_label_formatter(&|bits| short(*bits))
+            .draw()?;
+        for series in &self.convergence.series {
+            let mut band = Vec::new();
+            for row in &series.rows {
+                band.push((libm::log10(row.resolution), row.bound));
+            }
+            band.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let above = band.iter().map(|&(x, bound)| (x, inside(series.limit + bound)));
+            let below = band.iter().rev().map(|&(x, bound)| (x, inside(series.limit - bound)));
+            chart.draw_series([Polygon::new(
+                above.chain(below).collect::<Vec<_>>(),
+                colour(series.kind).mix(0.12),
+            )])?;
+        }
+        for series in &self.convergence.series {
+            let colour = colour(series.kind);
+            let limit = ends.map(|x| (x, series.limit));
+            chart
+                .draw_series(DashedLineSeries::new(limit, 9, 6, colour.stroke_width(2)))?
+                .label(format!("limit of {} grids, with the proved band: {:.6}", series.kind.name(), series.limit))
+                .legend(move |at| {
+                    EmptyElement::at(at)
+                        + Rectangle::new([(0, -6), (20, 6)], colour.mix(0.12).filled())
+                        + PathElement::new([(0, 0), (8, 0)], colour.stroke_width(2))
+                        + PathElement::new([(12, 0), (20, 0)], colour.stroke_width(2))
+                });
+            let mut points: Vec<_> =
+                series.rows.iter().map(|row| (libm::log10(row.resolution), row.mean_information)).collect();
+            points.sort_by(|a, b| a.0.total_cmp(&b.0));
+            chart
+                .draw_series(LineSeries::new(points.iter().copied(), colour.stroke_width(2)))?
+                .label(format!("{} grid", series.kind.name()))
+                .legend(move |at| {
+                    EmptyElement::at(at)
+                        + PathElement::new([(0, 0), (20, 0)], colour.stroke_width(2))
+                        + Circle::new((10, 0), 4, colour.filled())
+                });
+            chart.draw_series(points.into_iter().map(|point| Circle::new(point, 4, colour.filled())))?;
+        }
+        chart
+            .configure_series_labels()
+            .position(SeriesLabelPosition::UpperRight)
+            .background_style(WHITE)
+            .border_style(RGBColor(160, 160, 160))
+            .label_font(LABEL)
+            .draw()
+    }
+}

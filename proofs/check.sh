@@ -48,7 +48,7 @@ fi
 # Internal precision: integers here have up to 256 bits. A denominator is 1 plus something that is not negative.
 for script in proofs/*.gappa; do
     wanted "$(basename "$script")" || continue
-    timeout 10 gappa -Eprecision=300 -Eno-auto-dichotomy -Wno-null-denominator "$script" > "$output" 2>&1
+    timeout 60 gappa -Eprecision=300 -Eno-auto-dichotomy -Wno-null-denominator "$script" > "$output" 2>&1
     status=$?
     [ -s "$output" ] && status=1 # a warning
     verdict "$(basename "$script")" "$status"

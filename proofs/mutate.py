@@ -132,6 +132,8 @@ MUTATIONS = [
     ("gaussian.rs alone: half of EXP_ERROR", "source", [(GAUSSIAN, "around(y, EXP_ERROR, ", "around(y, EXP_ERROR / 2, ")]),
     ("constants.sollya: Q of degree 5 instead of 6", "constants.sollya",
      [("proofs/constants.sollya", "  q_series, 6, 63,", "  q_series, 5, 63,")]),
+    ("constants.sollya: no result of supnorm", "constants.sollya",
+     [("proofs/constants.sollya", "  e = sup(supnorm(p, f, domain, absolute, 2^(-20)));", "  e = error;")]),
     ("constants.sollya: the bound on V's error 2^-67", "constants.sollya",
      [("proofs/constants.sollya", "[0; 2^(-8)], -66.3);", "[0; 2^(-8)], -67);")]),
     ("constants.rs: a digit of the exponential's table", "constants.sollya",

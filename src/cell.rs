@@ -6,7 +6,7 @@
 
 use crate::error::Error;
 use crate::real::Real;
-use crate::rounded;
+use crate::rounded::{self, Bits};
 use core::cmp::Ordering;
 
 /// What the map says of a cell. The paper calls a cell observed if `p != 1/2`.
@@ -62,8 +62,7 @@ impl<T: Real> Cell<T> {
         if !in_unit_interval(p) {
             return Err(Error::out_of_range("occupancy", p.widen(), "0 to 1"));
         }
-        let (entropy, information) = rounded::entropy_and_information(p);
-        Ok(Self { state: State::beside(p, T::HALF), entropy, information })
+        Ok(Self::new(State::beside(p, T::HALF), &Bits::at_occupancy(p)))
     }
 
     /// The cell of log-odds `l` (nats); entropy and information are those of [`entropy_from_log_odds`] and
@@ -88,8 +87,11 @@ impl<T: Real> Cell<T> {
                 "any number of nats, infinities included",
             ));
         }
-        let (entropy, information) = rounded::entropy_and_information_from_log_odds(l);
-        Ok(Self { state: State::beside(l, T::zero()), entropy, information })
+        Ok(Self::new(State::beside(l, T::zero()), &Bits::at_log_odds(l)))
+    }
+
+    fn new(state: State, bits: &Bits) -> Self {
+        Self { state, entropy: bits.entropy(), information: bits.information() }
     }
 
     /// Unknown, free or occupied.
@@ -127,7 +129,7 @@ pub(crate) fn in_unit_interval<T: Real>(p: T) -> bool {
 /// assert!(entropy(1.5_f32).is_nan());
 /// ```
 pub fn entropy<T: Real>(p: T) -> T {
-    if in_unit_interval(p) { rounded::entropy_and_information(p).0 } else { T::nan() }
+    if in_unit_interval(p) { Bits::at_occupancy(p).entropy() } else { T::nan() }
 }
 
 /// The information `I(p) = 1 - H(p)` of a cell of occupancy `p`, in bits (Eq. 3).
@@ -145,7 +147,7 @@ pub fn entropy<T: Real>(p: T) -> T {
 /// assert_eq!(information(0.5 + f64::EPSILON / 2.0), 3.5565178622297884e-32);
 /// ```
 pub fn information<T: Real>(p: T) -> T {
-    if in_unit_interval(p) { rounded::entropy_and_information(p).1 } else { T::nan() }
+    if in_unit_interval(p) { Bits::at_occupancy(p).information() } else { T::nan() }
 }
 
 /// The entropy of a cell of log-odds `l` (nats), in bits: `(ln(1 + e^-|l|) + |l| / (1 + e^|l|)) / ln 2`.
@@ -159,7 +161,7 @@ pub fn information<T: Real>(p: T) -> T {
 /// assert_eq!(entropy_from_log_odds(2.0_f64), 0.5270653410031616);
 /// ```
 pub fn entropy_from_log_odds<T: Real>(l: T) -> T {
-    if l.is_nan() { l } else { rounded::entropy_and_information_from_log_odds(l).0 }
+    if l.is_nan() { l } else { Bits::at_log_odds(l).entropy() }
 }
 
 /// The information of a cell of log-odds `l` (nats), in bits: `1 - H`, see [`entropy_from_log_odds`].
@@ -173,7 +175,7 @@ pub fn entropy_from_log_odds<T: Real>(l: T) -> T {
 /// assert_eq!(information_from_log_odds(2.0_f64), 0.4729346589968384);
 /// ```
 pub fn information_from_log_odds<T: Real>(l: T) -> T {
-    if l.is_nan() { l } else { rounded::entropy_and_information_from_log_odds(l).1 }
+    if l.is_nan() { l } else { Bits::at_log_odds(l).information() }
 }
 
 /// The occupancy `p = 1 / (1 + e^-l)` of a cell of log-odds `l` (nats).

@@ -42,10 +42,10 @@
 //! # What it promises
 //! * Entropy and information of a cell, and its occupancy by Eq. 5, are **correctly rounded**, in `f32` and `f64`, for every input.
 //! * Sums over cells are **exact** until they are read, then rounded once: no order, split or thread count changes a bit.
-//! * The same bits on every platform: everything is integer arithmetic, and no elementary function of the standard library is
-//!   called.
+//! * The same bits on every platform: integer arithmetic, and where floats are used the four operations of IEEE 754; no
+//!   elementary function of the standard library is called.
 //! * Unknown is exact: `p = 1/2`, and nothing here turns an unknown cell into an observed one.
-//! * No panic on input: constructors return an [`Error`] that names the argument, its value and the allowed range; functions of
+//! * No panic on input, except where an item says so under *Panics*: constructors return an [`Error`] that names the argument, its value and the allowed range; functions of
 //!   floats return NaN outside their domain.
 //!
 //! # What it does not do

@@ -79,9 +79,14 @@ macro_rules! impl_real {
                     return 0.0;
                 }
                 // Bring the leading one to the place of the implicit bit, or as near as a subnormal allows.
-                let shift = (m.leading_zeros() as i32 + $stored - 63).min(e - Self::MIN_EXPONENT);
+                let shift =
+                    (m.leading_zeros() as i32 + $stored - 63).min(e.saturating_sub(Self::MIN_EXPONENT));
                 let (m, e) = if shift >= 0 { (m << shift, e - shift) } else { (m >> -shift, e - shift) };
-                let biased = if m >> $stored == 0 { 0 } else { e - Self::MIN_EXPONENT + 1 };
+                let biased = if m >> $stored == 0 {
+                    0
+                } else {
+                    e.saturating_sub(Self::MIN_EXPONENT).saturating_add(1)
+                };
                 if biased > 2 * $bias {
                     return Self::INFINITY;
                 }
@@ -129,6 +134,7 @@ mod tests {
         assert_eq!(f64::from_parts(1, -1074), f64::from_bits(1));
         assert_eq!(f32::from_parts(1, -149), f32::from_bits(1));
         assert_eq!(f64::from_parts(3, 1023).to_bits(), f64::INFINITY.to_bits());
+        assert_eq!(f64::from_parts(1, i32::MAX).to_bits(), f64::INFINITY.to_bits());
         assert_eq!(f64::from_parts(1 << 60, -60), 1.0);
         assert_eq!(f64::MAX.parts(), ((1 << 53) - 1, 971));
         assert_eq!(f64::from_parts((1 << 53) - 1, 971), f64::MAX);

@@ -1,4 +1,4 @@
-//! Step 1 of Ziv's strategy: enclosures of the value about `2^-70` wide, relative to it.
+//! Step 1 of Ziv's strategy: enclosures of the value at most `2^-66` wide, relative to it.
 //!
 //! Notation of [`docs/rounding.md`](crate::book::rounding): `q = min(p, 1-p)`, `d = |2p - 1|`, `l` the magnitude of the
 //! log-odds, `x = e^-l`, so that `q = x / (1 + x)`. Significands `m` are in `[2^52, 2^53)`.
@@ -57,7 +57,7 @@ pub(super) fn minor(m: u64, n: i32) -> (u64, i32) {
 #[inline]
 fn near_unknown(value: u128, exponent: i32) -> (Enclosure, Enclosure) {
     let information = Enclosure::around(value, SERIES_ERROR + 2, exponent);
-    // I < 2^-8 at scale 120: cut by less than one unit, wrong by less than 2^-71 I.
+    // I < 2^-8 at scale 120: cut by less than one unit, wrong by less than 2^-67 I.
     let cut = shift_right(value, -120 - exponent);
     let error = shift_right(SERIES_ERROR + 2, -120 - exponent) + 2;
     (Enclosure::around(ONE_120 - cut, error, -120), information)

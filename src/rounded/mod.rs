@@ -24,36 +24,85 @@ pub(crate) use gaussian::gaussian;
 use crate::real::Real;
 use enclosure::{Enclosure, Midpoint, Rounded};
 
-/// `H(p)` and `I(p)` for `p` in `[0, 1]`.
-pub(crate) fn entropy_and_information<T: Real>(p: T) -> (T, T) {
-    if p == T::HALF {
-        return (T::one(), T::zero());
-    }
-    if p.is_zero() || p == T::one() {
-        return (T::zero(), T::one());
-    }
-    let (m, e) = normalised(p);
-    let (entropy, information) = enclose::from_occupancy(m, e);
-    (
-        settle(entropy, |midpoint| exact::entropy(m, e, midpoint)),
-        settle(information, |midpoint| exact::information(m, e, midpoint)),
-    )
+/// `H` and `I` of a cell, each rounded only when it is asked for: rounding may need the comparison.
+pub(crate) enum Bits {
+    Unknown,
+    Certain,
+    Between { entropy: Uncertain, information: Uncertain },
 }
 
-/// `H` and `I` at log-odds `l`, not NaN.
-pub(crate) fn entropy_and_information_from_log_odds<T: Real>(l: T) -> (T, T) {
-    if l.is_zero() {
-        return (T::one(), T::zero());
+/// A value that is not a float, and how it compares with a midpoint: a comparison of [`exact`], at the argument `m 2^e`.
+#[derive(Clone, Copy)]
+pub(crate) struct Uncertain {
+    value: Enclosure,
+    is_above: fn(u64, i32, Midpoint) -> bool,
+    argument: (u64, i32),
+}
+
+impl Uncertain {
+    #[inline]
+    fn round<T: Real>(self) -> T {
+        let (m, e) = self.argument;
+        settle(self.value, |midpoint| (self.is_above)(m, e, midpoint))
     }
-    if beyond_exponential(l) {
-        return (T::zero(), T::one());
+}
+
+impl Bits {
+    /// At `p` in `[0, 1]`.
+    #[inline]
+    pub(crate) fn at_occupancy<T: Real>(p: T) -> Self {
+        if p == T::HALF {
+            return Self::Unknown;
+        }
+        if p.is_zero() || p == T::one() {
+            return Self::Certain;
+        }
+        let argument @ (m, e) = normalised(p);
+        let (entropy, information) = enclose::from_occupancy(m, e);
+        Self::Between {
+            entropy: Uncertain { value: entropy, is_above: exact::entropy, argument },
+            information: Uncertain { value: information, is_above: exact::information, argument },
+        }
     }
-    let (m, e) = normalised(l);
-    let (entropy, information) = enclose::from_log_odds(m, e);
-    (
-        settle(entropy, |midpoint| exact::entropy_from_log_odds(m, e, midpoint)),
-        settle(information, |midpoint| exact::information_from_log_odds(m, e, midpoint)),
-    )
+
+    /// At log-odds `l`, not NaN.
+    #[inline]
+    pub(crate) fn at_log_odds<T: Real>(l: T) -> Self {
+        if l.is_zero() {
+            return Self::Unknown;
+        }
+        if beyond_exponential(l) {
+            return Self::Certain;
+        }
+        let argument @ (m, e) = normalised(l);
+        let (entropy, information) = enclose::from_log_odds(m, e);
+        Self::Between {
+            entropy: Uncertain { value: entropy, is_above: exact::entropy_from_log_odds, argument },
+            information: Uncertain {
+                value: information,
+                is_above: exact::information_from_log_odds,
+                argument,
+            },
+        }
+    }
+
+    #[inline]
+    pub(crate) fn entropy<T: Real>(&self) -> T {
+        match self {
+            Self::Unknown => T::one(),
+            Self::Certain => T::zero(),
+            Self::Between { entropy, .. } => entropy.round(),
+        }
+    }
+
+    #[inline]
+    pub(crate) fn information<T: Real>(&self) -> T {
+        match self {
+            Self::Unknown => T::zero(),
+            Self::Certain => T::one(),
+            Self::Between { information, .. } => information.round(),
+        }
+    }
 }
 
 /// `1 / (1 + e^-l)` for `l` not NaN.

@@ -3,6 +3,8 @@
 
 use crate::real::Real;
 use crate::rounded::round_limbs;
+#[cfg(feature = "serde")]
+use core::cmp::Ordering;
 
 /// Limbs of 64 bits. The lowest bit is worth `2^-1074`, so the sum can reach `2^(64 * 18 - 1074) = 2^78`.
 const LIMBS: usize = 18;
@@ -42,7 +44,7 @@ impl ExactSum {
     /// Adds `x`, a number in `[0, 1]`.
     ///
     /// # Panics
-    /// If `x` is NaN or outside `[0, 1]`, or if the sum would reach `2^78`.
+    /// If `x` is NaN or outside `[0, 1]`, or if the sum would reach `2^78`; then the sum is lost.
     #[inline]
     pub fn add<T: Real>(&mut self, x: T) {
         self.add_many(x, 1);
@@ -51,7 +53,7 @@ impl ExactSum {
     /// Adds `x` in `[0, 1]`, `count` times, in one step.
     ///
     /// # Panics
-    /// If `x` is NaN or outside `[0, 1]`, or if the sum would reach `2^78`.
+    /// If `x` is NaN or outside `[0, 1]`, or if the sum would reach `2^78`; then the sum is lost.
     #[inline]
     pub fn add_many<T: Real>(&mut self, x: T, count: u64) {
         assert!(x >= T::zero() && x <= T::one(), "an exact sum takes numbers in [0, 1], not {x}");
@@ -68,7 +70,7 @@ impl ExactSum {
     /// Adds the sum of another.
     ///
     /// # Panics
-    /// If the sum would reach `2^78`.
+    /// If the sum would reach `2^78`; then the sum is lost.
     pub fn merge(&mut self, other: &Self) {
         self.carry_into(0, other.limbs);
     }
@@ -90,12 +92,24 @@ impl ExactSum {
         assert!(!carry, "an exact sum stays below 2^78");
     }
 
-    /// Whether the sum is above the integer `n`.
+    /// How the sum compares with the integer `n`.
     #[cfg(feature = "serde")]
-    pub(super) fn exceeds(&self, n: u64) -> bool {
+    pub(super) fn compare(&self, n: u64) -> Ordering {
         let mut bound = Self::new();
         bound.add_many(1.0_f64, n);
-        self.limbs.iter().rev().gt(bound.limbs.iter().rev())
+        self.limbs.iter().rev().cmp(bound.limbs.iter().rev())
+    }
+
+    /// Whether the sum is a multiple of `2^exponent`.
+    #[cfg(feature = "serde")]
+    pub(super) fn is_multiple_of_power(&self, exponent: i32) -> bool {
+        let bits = (exponent - LOWEST) as usize;
+        let below = |(k, limb): (usize, &u64)| match bits.saturating_sub(64 * k) {
+            0 => 0,
+            low @ 1..64 => limb & ((1 << low) - 1),
+            _ => *limb,
+        };
+        self.limbs.iter().enumerate().map(below).all(|low| low == 0)
     }
 
     /// The sum, rounded once to nearest.

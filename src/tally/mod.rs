@@ -29,7 +29,7 @@ use core::marker::PhantomData;
 /// assert_eq!(tally.mean_information(), 0.49404977561407626);
 /// # Ok::<(), mean_information::Error>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Tally<T> {
     entropy: ExactSum,
     information: ExactSum,
@@ -38,6 +38,9 @@ pub struct Tally<T> {
     occupied: u64,
     format: PhantomData<T>,
 }
+
+/// Sums and counts are integers; `derive` would ask `T: Eq`.
+impl<T: Real> Eq for Tally<T> {}
 
 impl<T: Real> Default for Tally<T> {
     fn default() -> Self {

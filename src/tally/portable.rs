@@ -1,7 +1,8 @@
 //! A tally as text, so that it can travel between machines and be merged there (feature `serde`).
 //!
 //! The sums are written as hexadecimal integers in units of `2^-1074`: exact, and readable in any language with big
-//! integers. Reading checks what a tally guarantees.
+//! integers. Reading refuses counts that overflow, sums above 1 bit per cell, an entropy below that of the unknown cells, and
+//! sums that are no multiple of the smallest number of the format.
 
 use super::{ExactSum, Tally};
 use crate::real::Real;
@@ -82,8 +83,16 @@ impl<'de, T: Real> Deserialize<'de> for Tally<T> {
         else {
             return Err(D::Error::custom("a tally holds at most 2^64 - 1 cells"));
         };
-        if information.exceeds(observed) || entropy.exceeds(cells) {
-            return Err(D::Error::custom("the sums of a tally are at most 1 bit per cell"));
+        if information.compare(observed).is_gt()
+            || entropy.compare(cells).is_gt()
+            || entropy.compare(unknown).is_lt()
+        {
+            return Err(D::Error::custom(
+                "the sums of a tally are at most 1 bit per cell, and an unknown cell has an entropy of 1 bit",
+            ));
+        }
+        if [&entropy, &information].iter().any(|sum| !sum.is_multiple_of_power(T::MIN_EXPONENT)) {
+            return Err(D::Error::custom(format_args!("the sums are no sums of numbers of {format}")));
         }
         Ok(Self { entropy, information, unknown, free, occupied, format: PhantomData })
     }

@@ -1,7 +1,8 @@
 //! The table of guarantees: `docs/guarantees.md` says the same, and what it cites is there.
 
 use mean_information::sensor::{GaussianSensor, InverseSensorModel};
-use mean_information::{Tally, cell, elementary, map};
+use mean_information::{ExactSum, Tally, cell, elementary, map};
+use std::fs;
 use std::path::Path;
 
 /// How a bound is known.
@@ -26,7 +27,7 @@ macro_rules! guarantees {
 }
 
 /// Every function with a bound on its error.
-pub(crate) fn guarantees() -> [Guarantee; 14] {
+pub(crate) fn guarantees() -> [Guarantee; 16] {
     guarantees! {
         elementary::exp::<f64> => "elementary::exp", 0.5, Proved;
         elementary::ln::<f64> => "elementary::ln", 0.5, Proved;
@@ -36,6 +37,8 @@ pub(crate) fn guarantees() -> [Guarantee; 14] {
         cell::entropy_from_log_odds::<f64> => "cell::entropy_from_log_odds", 0.5, Proved;
         cell::information_from_log_odds::<f64> => "cell::information_from_log_odds", 0.5, Proved;
         cell::occupancy_from_log_odds::<f64> => "cell::occupancy_from_log_odds", 0.5, Proved;
+        ExactSum::value::<f64> => "ExactSum::value", 0.5, Proved;
+        ExactSum::mean::<f64> => "ExactSum::mean", 0.5, Proved;
         Tally::<f64>::entropy => "Tally::entropy", 0.5, Proved;
         Tally::<f64>::information => "Tally::information", 0.5, Proved;
         Tally::<f64>::mean_information => "Tally::mean_information", 0.5, Proved;
@@ -59,6 +62,7 @@ fn the_page_says_what_the_table_says() {
     assert_eq!(rows.len(), guarantees.len());
     for (row, guarantee) in rows.iter().zip(&guarantees) {
         assert_eq!(row[0], format!("`{}`", guarantee.function));
+        assert_eq!(row[1], "f32, f64");
         assert_eq!(row[2], format!("{} ulp", guarantee.ulps));
         assert_eq!(row[3], format!("{:?}", guarantee.known).to_lowercase());
         for cited in row[4].split('`').skip(1).step_by(2) {
@@ -66,4 +70,20 @@ fn the_page_says_what_the_table_says() {
             assert!(path.exists(), "{} cites {cited}", guarantee.function);
         }
     }
+}
+
+#[test]
+fn the_vectors_ask_for_what_the_table_promises() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("vectors/v1");
+    let mut files = 0;
+    for entry in fs::read_dir(folder).expect("the vectors").map(|entry| entry.expect("an entry").path()) {
+        let file: serde_json::Value =
+            serde_json::from_str(&fs::read_to_string(&entry).expect("a file")).expect("JSON");
+        let function = file["op"].as_str().expect("an operation").replace('.', "::");
+        let guarantee = guarantees().into_iter().find(|guarantee| guarantee.function == function);
+        let guarantee = guarantee.unwrap_or_else(|| panic!("{function} promises nothing"));
+        assert_eq!(file["tolerance_ulp"].as_f64(), Some(guarantee.ulps), "{function}");
+        files += 1;
+    }
+    assert!(files >= 5, "{files}");
 }

@@ -115,7 +115,7 @@ fn the_number_of_cells_must_be_width_times_height() {
     assert!(Grid::<Percent>::new(usize::MAX, 2, geometry(), vec![0; 7]).is_err(), "no overflow");
     let empty = Grid::<Percent>::new(0, 5, geometry(), vec![]).unwrap();
     assert_eq!((empty.tally().cells(), empty.row(0), empty.row(5)), (0, Some(&[][..]), None));
-    assert_eq!(empty.pooled(2).unwrap().cells(), []);
+    assert!(empty.pooled(2).unwrap().cells().is_empty());
 }
 
 #[test]

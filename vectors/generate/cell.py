@@ -154,7 +154,7 @@ def near_ties(function, format):
                 found.append(float.fromhex(x))
         return found
     for line in (HERE / "near_ties_f32.txt").read_text().splitlines():
-        name, bits = line.removeprefix("near-tie ").removesuffix(" (minus)").rsplit(" ", 1)
+        name, bits = line.removeprefix("near-tie ").rsplit(" ", 1)
         x = float(np.array(int(bits, 16), np.uint32).view(np.float32))
         if name.split()[0] == function:
             found.append(-x if name.endswith("minus") else x)

@@ -1,5 +1,6 @@
 //! The one error type: what was wrong, where, and what is allowed.
 
+use crate::real::Real;
 use core::fmt;
 
 /// Why an input was refused: the place, the value and the allowed range.
@@ -41,6 +42,15 @@ pub enum Error {
         /// Rows.
         height: usize,
     },
+    /// More cells than the limit allows: to count them would not end, or to store them take too much memory.
+    TooManyCells {
+        /// What has the cells.
+        what: &'static str,
+        /// How many there are.
+        count: f64,
+        /// How many are allowed.
+        limit: u64,
+    },
 }
 
 impl Error {
@@ -48,6 +58,20 @@ impl Error {
     pub(crate) fn out_of_range(what: &'static str, value: f64, allowed: &'static str) -> Self {
         Self::OutOfRange { what, value, allowed }
     }
+}
+
+/// The error if `value` is not positive and finite.
+pub(crate) fn positive<T: Real>(what: &'static str, value: T) -> Result<T, Error> {
+    if value > T::zero() && value.is_finite() {
+        Ok(value)
+    } else {
+        Err(Error::out_of_range(what, value.widen(), "positive and finite, in metres"))
+    }
+}
+
+/// The error if `value` is not finite.
+pub(crate) fn finite<T: Real>(what: &'static str, value: T, allowed: &'static str) -> Result<T, Error> {
+    if value.is_finite() { Ok(value) } else { Err(Error::out_of_range(what, value.widen(), allowed)) }
 }
 
 impl fmt::Display for Error {
@@ -59,6 +83,9 @@ impl fmt::Display for Error {
             }
             Self::CellCount { given, width, height } => {
                 write!(f, "{given} cells were given for a map of {width} columns and {height} rows")
+            }
+            Self::TooManyCells { what, count, limit } => {
+                write!(f, "{what} has {count:.3e} cells, allowed are {limit}")
             }
         }
     }

@@ -33,6 +33,7 @@
 //! | [`tally`] | the exact, mergeable sums over a map | 2, 4 |
 //! | [`map`] | grids, cell encodings, pooling | |
 //! | [`sensor`] | inverse sensor models: what a range reading says of a point | 5 |
+//! | [`build`] | the maps that one reading gives of a circular room: polar and Cartesian | 4, 5 |
 //! | [`limit`] | what the mean information of one scan tends to as cells shrink | 6, 7 |
 //! | [`estimate`] | results with an estimated error, and results with a proved enclosure | |
 //! | [`scalar`] | what integrands are written in: floats, intervals, jets | |
@@ -60,6 +61,7 @@
 
 extern crate alloc;
 
+pub mod build;
 pub mod cell;
 pub mod elementary;
 mod error;
@@ -84,6 +86,10 @@ pub mod book {
     pub mod map {}
     #[doc = include_str!("../docs/sensor.md")]
     pub mod sensor {}
+    #[doc = include_str!("../docs/grids.md")]
+    pub mod grids {}
+    #[doc = include_str!("../docs/convergence.md")]
+    pub mod convergence {}
     #[doc = include_str!("../docs/rounding.md")]
     pub mod rounding {}
     #[doc = include_str!("../docs/guarantees.md")]

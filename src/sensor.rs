@@ -1,9 +1,10 @@
 //! Inverse sensor models: the occupancy that one range reading gives to a point at a distance `ρ` from the sensor (Eq. 5).
 
 use crate::elementary::{ln, sqrt};
-use crate::error::Error;
+use crate::error::{Error, positive};
 use crate::real::Real;
 use crate::rounded;
+use num_traits::Zero;
 
 /// The occupancy that a reading of a range sensor gives to points along its beam.
 ///
@@ -17,6 +18,13 @@ pub trait InverseSensorModel {
 
     /// A distance (metres) beyond which nothing is observed: `occupancy` is 1/2 at every greater `rho`.
     fn reach(&self) -> Self::Float;
+
+    /// A distance (metres) up to which `occupancy` is what it is at 0: grid builders count those cells at once.
+    ///
+    /// Any such distance will do; the default is 0.
+    fn plateau(&self) -> Self::Float {
+        Self::Float::zero()
+    }
 }
 
 /// Eq. 5: a range `z` read with Gaussian noise of standard deviation `σ`,
@@ -34,15 +42,6 @@ pub trait InverseSensorModel {
 pub struct GaussianSensor<T> {
     range: T,
     sigma: T,
-}
-
-/// The error if `value` is not positive and finite.
-pub(crate) fn positive<T: Real>(what: &'static str, value: T) -> Result<T, Error> {
-    if value > T::zero() && value.is_finite() {
-        Ok(value)
-    } else {
-        Err(Error::out_of_range(what, value.widen(), "positive and finite, in metres"))
-    }
 }
 
 impl<T: Real> GaussianSensor<T> {
@@ -98,6 +97,22 @@ impl<T: Real> InverseSensorModel for GaussianSensor<T> {
             reach = next;
         }
         reach
+    }
+
+    /// Free space so far from the obstacle that `p` is below every float, or all of it if `z` is below `σ` so far that `p` is 1.
+    fn plateau(&self) -> T {
+        let nearest = self.occupancy(T::zero());
+        let (mut plateau, mut end) = (T::zero(), self.range);
+        // The rounded model does not fall before z: two distances at one occupancy have it between them. Bisection.
+        for _ in 0..T::PRECISION {
+            let middle = plateau + (end - plateau) * T::HALF;
+            if self.occupancy(middle) == nearest {
+                plateau = middle;
+            } else {
+                end = middle;
+            }
+        }
+        plateau
     }
 }
 
@@ -163,5 +178,14 @@ impl<T: Real> InverseSensorModel for SteppedSensor<T> {
 
     fn reach(&self) -> T {
         self.far
+    }
+
+    fn plateau(&self) -> T {
+        if self.near > T::zero() {
+            let (m, e) = self.near.parts();
+            T::from_parts(m - 1, e)
+        } else {
+            self.far
+        }
     }
 }

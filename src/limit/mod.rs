@@ -1,7 +1,9 @@
 //! The limit of the mean information as cells shrink (Eqs. 6 and 7), and how far a grid can be from it.
 
+pub mod bounds;
 mod model;
 mod repeated;
+mod upwards;
 
 pub use model::{Piece, RadialModel};
 pub use repeated::RepeatedScans;

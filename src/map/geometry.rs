@@ -1,6 +1,6 @@
 //! Where a grid lies in the world.
 
-use crate::error::Error;
+use crate::error::{Error, finite, positive};
 
 /// The size of a grid's cells and the place of its lower left corner.
 ///
@@ -24,9 +24,7 @@ impl Geometry {
     /// # Errors
     /// [`Error::OutOfRange`] if the resolution is not positive and finite, or the origin not finite.
     pub fn new(resolution: f64, origin: [f64; 2]) -> Result<Self, Error> {
-        if !(resolution > 0.0 && resolution.is_finite()) {
-            return Err(Error::out_of_range("resolution", resolution, "positive and finite, in metres"));
-        }
+        let resolution = positive("resolution", resolution)?;
         for x in origin {
             finite("origin", x, "finite, in metres")?;
         }
@@ -66,8 +64,4 @@ impl Geometry {
     pub(crate) fn coarser(&self, k: usize) -> Result<Self, Error> {
         Self::new(self.resolution * k as f64, self.origin)?.with_yaw(self.yaw)
     }
-}
-
-fn finite(what: &'static str, x: f64, allowed: &'static str) -> Result<(), Error> {
-    if x.is_finite() { Ok(()) } else { Err(Error::out_of_range(what, x, allowed)) }
 }

@@ -208,6 +208,11 @@ impl Ball {
         Self::dyadic(1, -1, fraction).log_series().scaled(1, -1)
     }
 
+    /// The order of two values, whatever their errors: of the numbers themselves if nothing was dropped.
+    pub(super) fn exact_order(&self, other: &Self) -> Ordering {
+        compare_limbs(&self.limbs, &other.limbs)
+    }
+
     /// Whether the number is above another; `None` if the balls meet.
     pub(super) fn is_above(&self, other: &Self) -> Option<bool> {
         let order = compare_limbs(&self.limbs, &other.limbs);

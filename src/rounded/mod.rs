@@ -12,12 +12,14 @@
 mod big;
 #[rustfmt::skip] // as `proofs/constants.sollya` writes it
 mod constants;
+mod distance;
 mod enclose;
 mod enclosure;
 mod exact;
 mod fixed;
 mod gaussian;
 
+pub(crate) use distance::{Coordinate, distance, multiple};
 pub(crate) use enclosure::{round_integer, round_limbs};
 pub(crate) use gaussian::gaussian;
 

@@ -1,0 +1,333 @@
+//! How far the mean information of a grid of the circular room can be from its limit: bounds that hold before the grid is
+//! counted, and sharper ones that know how many of its cells are observed.
+//!
+//! With cells of side `h` and `x = L / h`, `L = z + σ √(ln 4)`, all of them are
+//!
+//! ```text
+//! |MI_h - MI| <= (S + MI M) / N,
+//! ```
+//!
+//! where `S` bounds the error of the sum of information, `M` that of the number of observed cells, both in cells, and `N` is
+//! that number or a lower bound of it. The proofs are the chapter [`convergence`](crate::book::convergence), whose symbols
+//! are used here. All arithmetic is rounded outwards, in `f64`.
+
+use super::upwards::Up;
+use crate::cell::{in_unit_interval, information};
+use crate::error::{Error, positive};
+use crate::real::Real;
+use crate::sensor::{GaussianSensor, InverseSensorModel};
+use num_traits::float::FloatCore;
+
+/// The floats below and above `√(ln 4)`.
+const B: [f64; 2] = [1.177_410_022_515_474_7, 1.177_410_022_515_474_9];
+/// The floats below and above `π`.
+const PI: [f64; 2] = [core::f64::consts::PI, core::f64::consts::PI.next_up()];
+/// At least `max |φ'|`: the steepest information over `t`.
+const STEEPEST: Up = Up(1.32404);
+/// At least the total variation of `φ'`.
+const BEND: Up = Up(6.7619);
+
+/// The bound on `|MI_h - MI|` for the polar map of the circular room with rings of width `resolution` (metres) sampled at their
+/// centres, [`PolarRoom`](crate::build::PolarRoom); `MI` is the radial limit (Eq. 7). In bits per cell, at most 1.
+///
+/// ```text
+/// (min(V (1/2 + δ), W h / (8 σ)) + MI (1/2 + δ + R)) / (L/h - 1/2 - δ - R)
+/// ```
+///
+/// with `V = f(0) + 2` if `z > σ √(ln 4)`, else `2 - f(0)`, where `f(0)` is the information at the sensor; `W = 6.7619`; `R` the
+/// number of rings whose centre falls on `ρ = z - σ √(ln 4)`, where `p = 1/2`: decided, mostly 0. `δ` and terms not shown are
+/// of the order of the rounding of the grid's cells in `T`; they are included.
+///
+/// `limit` is `MI`, or any number that is not more than 4 ulp below it: 1 will do, and gives a weaker bound.
+///
+/// Proved ([`convergence`](crate::book::convergence)), for every sensor and resolution; rounded up.
+///
+/// # Errors
+/// [`Error::OutOfRange`] if the resolution is not positive and finite, or `limit` not in `[0, 1]`.
+///
+/// ```
+/// use mean_information::build::PolarRoom;
+/// use mean_information::limit::bounds;
+/// use mean_information::sensor::GaussianSensor;
+/// let sensor = GaussianSensor::new(2.0_f64, 0.2)?;
+/// let limit = 0.7893368880256514; // Eq. 7
+/// let error = PolarRoom::new(sensor, 0.01)?.tally()?.mean_information() - limit;
+/// assert_eq!(error, -0.0015928739679037518);
+/// assert_eq!(bounds::polar(&sensor, 0.01, limit)?, 0.0019589053762021393);
+/// # Ok::<(), mean_information::Error>(())
+/// ```
+pub fn polar<T: Real>(sensor: &GaussianSensor<T>, resolution: T, limit: T) -> Result<T, Error> {
+    let room = Room::new(sensor, resolution, limit)?;
+    let beam = room.beam();
+    Ok(beam.before_counting(room.limit, room.rings_at_one_half()))
+}
+
+/// The bound on `|MI_h - MI|` for such a polar map with `observed` rings that are observed.
+///
+/// ```text
+/// (min(V (1/2 + δ), W h / (8 σ)) + MI |observed - L/h|) / observed
+/// ```
+///
+/// Proved, rounded up, and with the arguments and errors of [`polar`].
+///
+/// ```
+/// use mean_information::build::PolarRoom;
+/// use mean_information::limit::bounds;
+/// use mean_information::sensor::GaussianSensor;
+/// let sensor = GaussianSensor::new(2.0_f64, 0.2)?;
+/// let limit = 0.7893368880256514;
+/// let tally = PolarRoom::new(sensor, 0.01)?.tally()?;
+/// assert_eq!(tally.observed(), 224); // of 223.548 by length
+/// assert_eq!(bounds::polar_with_count(&sensor, 0.01, limit, tally.observed())?, 0.0017807318105608544);
+/// # Ok::<(), mean_information::Error>(())
+/// ```
+pub fn polar_with_count<T: Real>(
+    sensor: &GaussianSensor<T>,
+    resolution: T,
+    limit: T,
+    observed: u64,
+) -> Result<T, Error> {
+    let room = Room::new(sensor, resolution, limit)?;
+    Ok(room.beam().with_count(room.limit, observed))
+}
+
+/// The bound on `|MI_h - MI|` for the Cartesian grid of the circular room with cells of side `resolution` (metres) sampled at
+/// their centres, [`CartesianRoom`](crate::build::CartesianRoom), wherever its cells lie; `MI` is the area limit. In bits per
+/// cell, at most 1.
+///
+/// ```text
+/// (min(V (e + δ), 0.8403 (8.086 √x h/σ + 2 V / √x)) + MI (e + δ + R)) / (π x^2 - e - δ - R),
+/// e = min(2 x + 1.72 √x + 1, 7.14 x^(2/3) + 1/2 from x = 5 on),
+/// ```
+///
+/// with `x = L/h` and `V` and `δ` as in [`polar`]; `e` bounds the error of counting the cells in a disc, and `R = 6.31 x^(2/3)`
+/// that of the circle where `p = 1/2`, as many of whose points can be cell centres (0 if `z < σ √(ln 4)`, and `2 e + δ` where
+/// cells are so fine that rounding widens the circle).
+///
+/// So the error falls at least as `h^(4/3)`. `limit` is `MI`, or any number that is not more than 4 ulp below it.
+///
+/// Proved ([`convergence`](crate::book::convergence)), for every sensor, resolution and offset; rounded up.
+///
+/// # Errors
+/// [`Error::OutOfRange`] if the resolution is not positive and finite, or `limit` not in `[0, 1]`.
+///
+/// ```
+/// use mean_information::build::CartesianRoom;
+/// use mean_information::limit::bounds;
+/// use mean_information::sensor::GaussianSensor;
+/// let sensor = GaussianSensor::new(2.0_f64, 0.2)?;
+/// let limit = 0.6525109529727351;
+/// let tally = CartesianRoom::new(sensor, 0.01, [0.5, 0.5])?.tally()?;
+/// assert_eq!(tally.mean_information() - limit, -7.769584712724598e-5);
+/// assert_eq!(bounds::cartesian(&sensor, 0.01, limit)?, 0.0019688054423076602);
+/// # Ok::<(), mean_information::Error>(())
+/// ```
+pub fn cartesian<T: Real>(sensor: &GaussianSensor<T>, resolution: T, limit: T) -> Result<T, Error> {
+    let room = Room::new(sensor, resolution, limit)?;
+    let disc = room.disc();
+    Ok(disc.before_counting(room.limit, room.cells_at_one_half(disc.miscount)))
+}
+
+/// The bound on `|MI_h - MI|` for such a Cartesian grid with `observed` cells that are observed.
+///
+/// ```text
+/// (min(V (e + δ), 0.8403 (8.086 √x h/σ + 2 V / √x)) + MI |observed - π x^2|) / observed
+/// ```
+///
+/// Nearly all of a grid's error is the second term: the sum of information is good to `h^(5/2)`.
+///
+/// Proved, rounded up, and with the arguments and errors of [`cartesian`].
+///
+/// ```
+/// use mean_information::build::CartesianRoom;
+/// use mean_information::limit::bounds;
+/// use mean_information::sensor::GaussianSensor;
+/// let sensor = GaussianSensor::new(2.0_f64, 0.2)?;
+/// let limit = 0.6525109529727351;
+/// let tally = CartesianRoom::new(sensor, 0.01, [0.5, 0.5])?.tally()?;
+/// assert_eq!(bounds::cartesian_with_count(&sensor, 0.01, limit, tally.observed())?, 0.00011214103522213834);
+/// # Ok::<(), mean_information::Error>(())
+/// ```
+pub fn cartesian_with_count<T: Real>(
+    sensor: &GaussianSensor<T>,
+    resolution: T,
+    limit: T,
+    observed: u64,
+) -> Result<T, Error> {
+    let room = Room::new(sensor, resolution, limit)?;
+    Ok(room.disc().with_count(room.limit, observed))
+}
+
+/// What the bounds of a room are made of. Lengths are in cells.
+struct Room {
+    /// `z` over the resolution, below and above.
+    range: [f64; 2],
+    /// `σ` over the resolution, below and above.
+    sigma: [f64; 2],
+    /// `L` over the resolution, below and above.
+    radius: [f64; 2],
+    /// `V`.
+    variation: Up,
+    /// `MI`.
+    limit: Up,
+    /// `u = 2^-P`: numbers are rounded by at most so much of their value, occupancies by half of it.
+    unit: Up,
+    /// `ε`: at most so much is a cell's information changed by the rounding of its occupancy, its own, and that of the mean.
+    rounding: Up,
+}
+
+/// The observed part of a grid: cells along a beam, or in a disc.
+struct Observed {
+    /// How many cells there would be if they were counted by length or area: below and above.
+    size: [f64; 2],
+    /// By how much the count can differ from that.
+    miscount: Up,
+    /// `S`: by how much the sum of information can.
+    information: Up,
+}
+
+/// `a / b` for positive numbers, below and above.
+fn quotient(a: f64, b: f64) -> [f64; 2] {
+    [(a / b).next_down().max(0.0), (a / b).next_up()]
+}
+
+impl Room {
+    fn new<T: Real>(sensor: &GaussianSensor<T>, resolution: T, limit: T) -> Result<Self, Error> {
+        let resolution = positive("resolution", resolution)?.widen();
+        if !in_unit_interval(limit) {
+            return Err(Error::out_of_range("limit", limit.widen(), "0 to 1"));
+        }
+        let bits = T::PRECISION as i32;
+        // Distances below the normal range are rounded by more. Floats that hold no distances of the room give no bound.
+        let smallest = T::from_parts(1, T::MIN_EXPONENT).widen();
+        let spacing = (smallest / (sensor.range().widen() + sensor.sigma().widen())).next_up();
+        let unit = f64::from_parts(1, -bits).max(spacing);
+        let unit = Up(if unit > 1.0 / 1024.0 { f64::INFINITY } else { unit });
+        let rounding = Up(f64::from(bits + 5) / 2.0) * unit;
+        let range = quotient(sensor.range().widen(), resolution);
+        let sigma = quotient(sensor.sigma().widen(), resolution);
+        let radius = [
+            (range[0] + (sigma[0] * B[0]).next_down()).next_down(),
+            (Up(range[1]) + Up(sigma[1]) * Up(B[1])).0,
+        ];
+        // The float tells the sign of z - σ √(ln 4): it is 1/2 only where the information is 0, but for the rounding.
+        let at_the_sensor = sensor.occupancy(T::zero());
+        let information = information(at_the_sensor).widen();
+        let change = if at_the_sensor > T::HALF { -information } else { information };
+        let variation = Up((2.0 + change).next_up()) + rounding;
+        let limit = (Up(limit.widen()) * (Up(1.0) + Up(8.0) * unit)).or(Up(1.0));
+        Ok(Self { range, sigma, radius, variation, limit, unit, rounding })
+    }
+
+    /// `L`, above.
+    fn radius(&self) -> Up {
+        Up(self.radius[1])
+    }
+
+    /// By how much rounding can move a circle of the model: the distances of the cells by `u L`, the occupancies of 1/2 by
+    /// `0.86 u σ`.
+    fn shift(&self) -> Up {
+        Up(2.0) * self.unit * self.radius()
+    }
+
+    /// By how much one cell's information can change because its distance is rounded, where the bound is of second order.
+    fn displacement(&self) -> Up {
+        STEEPEST * self.shift() / self.sigma[0]
+    }
+
+    /// A beam of the polar map, of cells of width 1.
+    fn beam(&self) -> Observed {
+        let miscount = Up(0.5) + self.shift();
+        let cells = self.radius() + miscount;
+        let first = self.variation * miscount;
+        let second = BEND * Up(0.125) / self.sigma[0] + self.displacement() * cells;
+        Observed { size: self.radius, miscount, information: first.or(second) + self.rounding * cells }
+    }
+
+    /// The disc of the Cartesian grid, of cells of area 1.
+    fn disc(&self) -> Observed {
+        let radius = self.radius();
+        let size = [
+            ((self.radius[0] * self.radius[0]).next_down() * PI[0]).next_down(),
+            (radius * radius * Up(PI[1])).0,
+        ];
+        let ring = Up(7.0) * radius * self.shift();
+        let miscount = points_in_a_disc(radius + self.shift()) + ring;
+        let cells = Up(size[1]) + miscount;
+        let first = self.variation * miscount;
+        let root = radius.sqrt();
+        let bend = (BEND + STEEPEST) * root / self.sigma[0];
+        let second = Up(0.8403) * (bend + Up(2.0) * self.variation * root / self.radius[0]);
+        let second = second + self.displacement() * cells;
+        Observed { size, miscount, information: first.or(second) + self.rounding * cells }
+    }
+
+    /// The circle `ρ = z - σ √(ln 4)` where `p = 1/2`, in cells, as far as rounding can move it; the end may be negative.
+    fn ring(&self) -> [f64; 2] {
+        let wide = self.shift().0;
+        let near = self.range[0] - (self.sigma[1] * B[1]).next_up();
+        let far = self.range[1] - (self.sigma[0] * B[0]).next_down();
+        [(near.next_down() - wide).next_down(), (far.next_up() + wide).next_up()]
+    }
+
+    /// How many centres `k + 1/2` of rings lie there.
+    fn rings_at_one_half(&self) -> Up {
+        let [near, far] = self.ring();
+        let first = FloatCore::ceil((near - 0.5).next_down()).max(0.0);
+        let last = FloatCore::floor((far - 0.5).next_up());
+        if last < first { Up(0.0) } else { Up(last - first) + Up(1.0) }
+    }
+
+    /// How many centres of cells can lie there: lattice points on a circle.
+    fn cells_at_one_half(&self, miscount: Up) -> Up {
+        let far = self.ring()[1];
+        if far < 0.0 {
+            return Up(0.0);
+        }
+        let radius = self.radius();
+        if (Up(2048.0) * self.unit * radius * radius).0 <= 1.0 {
+            Up(6.31) * Up(far).two_thirds_power() + Up(2.0)
+        } else {
+            Up(2.0) * miscount + Up(14.0) * radius * self.shift()
+        }
+    }
+}
+
+/// The error of counting points of the unit lattice, moved anyhow, in a disc of the given radius.
+fn points_in_a_disc(radius: Up) -> Up {
+    let by_columns = Up(2.0) * radius + Up(1.72) * radius.sqrt() + Up(1.0);
+    if radius.0 < 5.0 {
+        return by_columns;
+    }
+    by_columns.or(Up(7.14) * radius.two_thirds_power() + Up(0.5))
+}
+
+impl Observed {
+    /// The bound for any count that is possible, of which `unobserved` can be missing.
+    fn before_counting<T: Real>(&self, limit: Up, unobserved: Up) -> T {
+        let missing = self.miscount + unobserved;
+        self.bound(limit, missing, (self.size[0] - missing.0).next_down())
+    }
+
+    /// The bound for this count.
+    fn with_count<T: Real>(&self, limit: Up, observed: u64) -> T {
+        let count = observed as f64;
+        let [below, above] = self.size;
+        // The conversion rounds.
+        let miscount = (count.next_up() - below).max(above - count.next_down()).next_up();
+        self.bound(limit, Up(miscount), count.next_down())
+    }
+
+    /// `(S + MI miscount) / count` for a lower bound of the count; 1 where that says nothing.
+    fn bound<T: Real>(&self, limit: Up, miscount: Up, count: f64) -> T {
+        if count <= 0.0 {
+            return T::one();
+        }
+        let bound = ((self.information + limit * miscount) / count).0;
+        let rounded = T::nearest(bound);
+        // The next float of T: a comparison with NaN leaves 1.
+        let (m, e) = rounded.parts();
+        let above = if rounded.widen() < bound { T::from_parts(m + 1, e) } else { rounded };
+        if above < T::one() { above } else { T::one() }
+    }
+}

@@ -1,0 +1,88 @@
+//! The polar map `m_ρ`: cells of equal `dρ dθ` about a sensor.
+
+use super::Encoding;
+use crate::error::{Error, positive};
+use crate::tally::Tally;
+use alloc::vec::Vec;
+
+/// An occupancy map in polar coordinates about a sensor: equal sectors of the full turn, each cut into rings of equal width.
+///
+/// Cell `(sector, ring)` covers `θ` from `sector 2π/sectors` to `(sector + 1) 2π/sectors`, measured from wherever the first
+/// beam points, and `ρ` from `ring` to `ring + 1` times the resolution. Cells are stored sector by sector, from the sensor
+/// outwards, as a scanner delivers its beams.
+///
+/// All cells count alike, though the area of a cell grows with its distance: the mean information of a polar map is a mean
+/// over `dρ dθ`, as in Eq. 6, and not the one of the [`Grid`](super::Grid) of the same place
+/// ([`grids`](crate::book::grids)).
+///
+/// ```
+/// use mean_information::map::{PolarMap, encoding::Probability};
+/// // Two beams of three cells of 40 cm: the obstacle is in the third cell of one, in the second of the other.
+/// let map = PolarMap::<Probability<f64>>::new(2, 3, 0.4, vec![0.1, 0.1, 0.9, 0.1, 0.9, 0.5])?;
+/// assert_eq!(map.occupancy(1, 1), Some(0.9));
+/// assert_eq!(map.tally().observed(), 5);
+/// assert_eq!(map.tally().mean_information(), 0.5310044064107188);
+/// # Ok::<(), mean_information::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct PolarMap<E: Encoding> {
+    sectors: usize,
+    rings: usize,
+    resolution: f64,
+    cells: Vec<E::Stored>,
+}
+
+impl<E: Encoding> PolarMap<E> {
+    /// A map of `sectors` times `rings` cells, `resolution` (metres) from ring to ring, from its cells sector by sector.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if the resolution is not positive and finite; [`Error::CellCount`] if there are not sectors times
+    /// rings cells; [`Error::Cell`] naming the first cell (its sector as the row, its ring as the column) whose value the
+    /// encoding does not allow.
+    pub fn new(sectors: usize, rings: usize, resolution: f64, cells: Vec<E::Stored>) -> Result<Self, Error> {
+        let resolution = positive("resolution", resolution)?;
+        if sectors.checked_mul(rings) != Some(cells.len()) {
+            return Err(Error::CellCount { given: cells.len(), width: rings, height: sectors });
+        }
+        if let Some(bad) = cells.iter().position(|&stored| !E::is_valid(stored)) {
+            let (row, column, value) = (bad / rings, bad % rings, E::value(cells[bad]));
+            return Err(Error::Cell { row, column, value, allowed: E::ALLOWED });
+        }
+        Ok(Self { sectors, rings, resolution, cells })
+    }
+
+    /// Sectors of the full turn.
+    pub fn sectors(&self) -> usize {
+        self.sectors
+    }
+
+    /// Cells along a beam.
+    pub fn rings(&self) -> usize {
+        self.rings
+    }
+
+    /// The width of a ring, in metres.
+    pub fn resolution(&self) -> f64 {
+        self.resolution
+    }
+
+    /// The stored cells, sector by sector, each from the sensor outwards.
+    pub fn cells(&self) -> &[E::Stored] {
+        &self.cells
+    }
+
+    /// The stored cells of one sector, from the sensor outwards; `None` beyond the last.
+    pub fn sector(&self, sector: usize) -> Option<&[E::Stored]> {
+        (sector < self.sectors).then(|| &self.cells[sector * self.rings..][..self.rings])
+    }
+
+    /// The occupancy of one cell; `None` outside the map.
+    pub fn occupancy(&self, sector: usize, ring: usize) -> Option<E::Float> {
+        self.sector(sector)?.get(ring).and_then(|&stored| E::occupancy(stored))
+    }
+
+    /// Entropy, information and counts over all cells (Eqs. 2 to 4), each counted once whatever its area.
+    pub fn tally(&self) -> Tally<E::Float> {
+        E::tally(&self.cells)
+    }
+}

@@ -1,10 +1,12 @@
 //! The limit of the mean information as cells shrink (Eqs. 6 and 7), and how far a grid can be from it.
 
 pub mod bounds;
+mod closed_form;
 mod model;
 mod repeated;
 mod upwards;
 
+pub use closed_form::closed_form;
 pub use model::{Piece, RadialModel};
 pub use repeated::RepeatedScans;
 

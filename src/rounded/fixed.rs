@@ -31,7 +31,7 @@ pub(super) fn mul_high(a: u128, b: u128) -> u128 {
 
 /// `x >> shift`, 0 if all bits are shifted out.
 #[inline]
-pub(super) fn shift_right(x: u128, shift: i32) -> u128 {
+pub(crate) fn shift_right(x: u128, shift: i32) -> u128 {
     debug_assert!(shift >= 0);
     x.checked_shr(shift as u32).unwrap_or(0)
 }
@@ -39,7 +39,7 @@ pub(super) fn shift_right(x: u128, shift: i32) -> u128 {
 /// The polynomial of the given coefficients (lowest first) at `x` of the given scale, by Horner's rule; the result has the
 /// scale of the coefficients. Each of the `n - 1` steps floors once.
 #[inline]
-fn horner<const N: usize>(coefficients: &[i64; N], x: i64, scale: u32) -> i64 {
+pub(crate) fn horner(coefficients: &[i64], x: i64, scale: u32) -> i64 {
     let (last, rest) = coefficients.split_last().expect("a polynomial has a coefficient");
     rest.iter().rev().fold(*last, |sum, &c| c + ((i128::from(sum) * i128::from(x)) >> scale) as i64)
 }

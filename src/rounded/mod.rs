@@ -21,6 +21,7 @@ mod gaussian;
 
 pub(crate) use distance::{Coordinate, distance, multiple};
 pub(crate) use enclosure::{round_integer, round_limbs};
+pub(crate) use fixed::{horner, shift_right};
 pub(crate) use gaussian::gaussian;
 
 use crate::real::Real;
@@ -164,7 +165,7 @@ fn beyond_exponential<T: Real>(l: T) -> bool {
 }
 
 /// `|x| = m 2^e` with a significand in `[2^52, 2^53)`, for `x` finite and not 0.
-fn normalised<T: Real>(x: T) -> (u64, i32) {
+pub(crate) fn normalised<T: Real>(x: T) -> (u64, i32) {
     let (m, e) = x.parts();
     let shift = m.leading_zeros() as i32 - 11;
     (m << shift, e - shift)

@@ -5,7 +5,6 @@ Needs python-flint, mpmath and numpy. The library has no part in it: the enclosu
 definition must lie in each.
 """
 
-import json
 import math
 from fractions import Fraction
 from pathlib import Path
@@ -14,9 +13,9 @@ import mpmath
 import numpy as np
 
 from exact import DEFINE, FORMATS, enclosure, hardness, rounded
+from text import DIGITS, decimal, hex_float, neighbours, write_file
 
 HERE = Path(__file__).parent
-DIGITS = 40
 RANDOM = {"f64": 700, "f32": 300}
 
 FLAGS = {
@@ -34,29 +33,6 @@ OPS = {
     "information_from_log_odds": "I(p) = 1 - H(p) in bits for p = 1 / (1 + e^-l)",
     "occupancy_from_log_odds": "p = 1 / (1 + e^-l)",
 }
-
-
-def hex_float(x):
-    """C99, without trailing zeros: the id of an argument must not depend on a printer's taste."""
-    if not math.isfinite(x):
-        return str(x)
-    mantissa, exponent = x.hex().split("p")
-    return f"{mantissa.rstrip('0').rstrip('.') if '.' in mantissa else mantissa}p{int(exponent):+d}"
-
-
-def decimal(value, digits, up):
-    """A fraction in [0, 1] to so many significant digits, rounded down or up."""
-    if value == 0:
-        return "0"
-    exponent = math.floor(mpmath.log10(mpmath.mpf(value.numerator) / value.denominator))
-    exponent -= value < Fraction(10) ** exponent  # the logarithm was rounded
-    scaled = value / Fraction(10) ** (exponent - digits + 1)
-    whole = -(-scaled.numerator // scaled.denominator) if up else scaled.numerator // scaled.denominator
-    if whole == 10**digits:
-        whole, exponent = whole // 10, exponent + 1
-    assert len(str(whole)) == digits
-    text = str(whole).rstrip("0")
-    return f"{text[0]}.{text[1:] or '0'}e{exponent:+d}"
 
 
 def limit(function, x):
@@ -95,19 +71,6 @@ def want(function, format, x):
     while not decides(digits):
         digits += 20
     return dict(zip(("lo", "hi"), text(digits if digits == DIGITS else digits + 20)))
-
-
-def neighbours(x, format, n=1):
-    """x and the n floats on either side."""
-    kind = {"f64": np.float64, "f32": np.float32}[format]
-    x = kind(x)
-    found = [x]
-    for direction in (-np.inf, np.inf):
-        y = x
-        for _ in range(n):
-            y = np.nextafter(y, kind(direction))
-            found.append(y)
-    return [float(y) for y in found]
 
 
 def edges(of_odds, format):
@@ -186,7 +149,7 @@ def write(function):
             add(format, x, "Edge")
         for x in random_arguments(of_odds, format, rng):
             add(format, x, "Random")
-    header = {
+    write_file({
         "op": f"cell.{function}",
         "version": 1,
         "formula": OPS[function],
@@ -194,14 +157,9 @@ def write(function):
         "verdict": "The float nearest to the exact value, which lies between lo and hi. No enclosure holds a midpoint of two floats.",
         "source": "vectors/generate/cell.py: enclosures by Arb (python-flint), which contain mpmath's value of the definition.",
         "flags": FLAGS,
-    }
-    lines = ",\n".join("    " + json.dumps(test) for test in tests)
-    body = json.dumps(header, indent=2).removesuffix("\n}")
-    (HERE.parent / "v1" / f"cell.{function}.json").write_text(f'{body},\n  "tests": [\n{lines}\n  ]\n}}\n')
-    print(f"cell.{function}: {len(tests)} tests")
+    }, tests)
 
 
 if __name__ == "__main__":
-    (HERE.parent / "v1").mkdir(exist_ok=True)
     for function in OPS:
         write(function)

@@ -1,41 +1,20 @@
-//! The vectors of the functions of a cell: every result must be the float nearest to the exact value.
+//! The vectors: every result of a function of a cell must be the float nearest to the exact value, and every limit as near as
+//! the table of guarantees says.
 //!
 //! Decided in integers of any size, from the decimals as they are written; no decimal is ever parsed as a float.
 
+mod exact;
+
+use exact::{Exact, float};
 use mean_information::Real;
 use mean_information::cell::{
     entropy, entropy_from_log_odds, information, information_from_log_odds, occupancy_from_log_odds,
 };
-use num_bigint::BigUint;
+use mean_information::limit::{Weight, closed_form};
+use mean_information::sensor::GaussianSensor;
 use serde_json::Value;
-use std::cmp::Ordering;
 use std::collections::HashSet;
 use std::fs;
-
-/// The number `m 2^binary 10^decimal`.
-struct Exact {
-    m: BigUint,
-    binary: i32,
-    decimal: i32,
-}
-
-impl Exact {
-    /// A decimal such as `1.25e-3`.
-    fn decimal(text: &str) -> Option<Self> {
-        let (significand, exponent) = text.split_once('e').unwrap_or((text, "0"));
-        let (whole, fraction) = significand.split_once('.').unwrap_or((significand, ""));
-        let m = format!("{whole}{fraction}").parse().ok()?;
-        Some(Self { m, binary: 0, decimal: exponent.parse::<i32>().ok()? - fraction.len() as i32 })
-    }
-
-    fn cmp(&self, other: &Self) -> Ordering {
-        let (binary, decimal) = (self.binary.min(other.binary), self.decimal.min(other.decimal));
-        let integer = |x: &Self| {
-            (&x.m << (x.binary - binary) as u32) * BigUint::from(10_u32).pow((x.decimal - decimal) as u32)
-        };
-        integer(self).cmp(&integer(other))
-    }
-}
 
 /// The midpoints of a non-negative float and its neighbours; there is none below 0.
 fn midpoints<T: Real>(x: T) -> (Option<Exact>, Exact) {
@@ -56,20 +35,12 @@ fn is_nearest<T: Real>(x: T, lo: &Exact, hi: &Exact) -> bool {
     below.is_none_or(|below| below.cmp(lo).is_lt()) && hi.cmp(&above).is_lt()
 }
 
-/// A C99 hexadecimal float, exactly; `nan`, `inf` and `-inf` too.
-fn float<T: Real>(text: &str) -> Option<T> {
-    let (negative, magnitude) = text.strip_prefix('-').map_or((false, text), |rest| (true, rest));
-    let x = match magnitude {
-        "nan" => T::nan(),
-        "inf" => T::infinity(),
-        _ => {
-            let (significand, exponent) = magnitude.strip_prefix("0x")?.split_once('p')?;
-            let (whole, fraction) = significand.split_once('.').unwrap_or((significand, ""));
-            let m = u64::from_str_radix(&format!("{whole}{fraction}"), 16).ok()?;
-            T::from_parts(m, exponent.parse::<i32>().ok()? - 4 * fraction.len() as i32)
-        }
-    };
-    Some(if negative { -x } else { x })
+/// The enclosure of a test.
+fn wanted(test: &Value) -> (Exact, Exact) {
+    let end = |name: &str| test["want"][name].as_str().and_then(Exact::decimal).expect("a decimal");
+    let (lo, hi) = (end("lo"), end("hi"));
+    assert!(lo.cmp(&hi).is_le(), "{}: an enclosure that holds nothing", test["id"]);
+    (lo, hi)
 }
 
 /// What is wrong with the library's answer to a test, if anything.
@@ -81,32 +52,74 @@ fn judge<T: Real>(function: fn(T) -> T, test: &Value) -> Option<String> {
     if test["want"]["error"] == "domain" {
         return (!result.is_nan()).then(|| format!("{id}: {result:e}, not NaN"));
     }
-    let end = |name: &str| test["want"][name].as_str().and_then(Exact::decimal).expect("a decimal");
-    let (lo, hi) = (end("lo"), end("hi"));
-    assert!(lo.cmp(&hi).is_le(), "{id}: an enclosure that holds nothing");
+    let (lo, hi) = wanted(test);
     let right = result.is_sign_positive() && is_nearest(result, &lo, &hi);
     (!right).then(|| format!("{id}: {result:e} is not the nearest float"))
 }
 
-/// Judges the file of one function; at least `least` tests, so that an empty file does not pass.
-fn check(name: &str, single: fn(f32) -> f32, double: fn(f64) -> f64, least: usize) {
-    let path = format!("{}/vectors/v1/cell.{name}.json", env!("CARGO_MANIFEST_DIR"));
+/// Judges the file of one operation; at least `least` tests, so that an empty file does not pass.
+fn check_file(op: &str, tolerance: f64, least: usize, judge: impl Fn(&Value) -> Option<String>) {
+    let path = format!("{}/vectors/v1/{op}.json", env!("CARGO_MANIFEST_DIR"));
     let file: Value = serde_json::from_str(&fs::read_to_string(path).expect("the file")).expect("JSON");
-    // That the tolerance is that of the nearest float: tests/library/guarantees.rs.
-    assert_eq!(file["op"].as_str(), Some(&*format!("cell.{name}")));
+    assert_eq!((file["op"].as_str(), file["tolerance_ulp"].as_f64()), (Some(op), Some(tolerance)));
     let tests = file["tests"].as_array().expect("tests");
     let ids: HashSet<_> = tests.iter().map(|test| test["id"].as_str().expect("an id")).collect();
     assert_eq!(ids.len(), tests.len(), "an id means one test");
     assert!(tests.len() >= least, "{} tests", tests.len());
-    let wrong: Vec<_> = tests
-        .iter()
-        .filter_map(|test| match test["format"].as_str() {
+    let wrong: Vec<_> = tests.iter().filter_map(judge).collect();
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// The file of one function of a cell.
+fn check(name: &str, single: fn(f32) -> f32, double: fn(f64) -> f64, least: usize) {
+    check_file(&format!("cell.{name}"), 0.5, least, |test| {
+        match test["format"].as_str() {
             Some("f32") => judge(single, test),
             Some("f64") => judge(double, test),
             other => panic!("{}: no such format: {other:?}", test["id"]),
-        })
-        .collect();
-    assert!(wrong.is_empty(), "{wrong:#?}");
+        }
+    });
+}
+
+/// Thousandths of an ulp that `closed_form` may be off: as `docs/guarantees.md` has it. The file allows ports 2 ulp.
+const LIMIT_MILLIULPS: u64 = 501;
+
+/// What is wrong with the closed form's answer to a test, if anything.
+fn judge_limit<T: Real>(weight: Weight, test: &Value) -> Option<String> {
+    let argument =
+        |name: &str| test["args"][name].as_str().and_then(float::<T>).expect("a hexadecimal float");
+    let sensor = GaussianSensor::new(argument("range"), argument("sigma"));
+    if test["want"]["error"] == "domain" {
+        return sensor.is_ok().then(|| format!("{}: not refused", test["id"]));
+    }
+    let (lo, hi) = wanted(test);
+    let result = closed_form(&sensor.expect("positive and finite"), weight);
+    let (m, e) = result.parts();
+    let end = |m: u64| Exact { m: m.into(), binary: e, decimal: -3 };
+    let (below, above) = (end(1000 * m - LIMIT_MILLIULPS), end(1000 * m + LIMIT_MILLIULPS));
+    let right = below.cmp(&lo).is_le() && hi.cmp(&above).is_le();
+    (!right).then(|| format!("{}: {result:e} is too far", test["id"]))
+}
+
+/// The file of one limit.
+fn check_limit(name: &str, weight: Weight) {
+    check_file(&format!("limit.{name}"), 2.0, 1200, |test| {
+        match test["format"].as_str() {
+            Some("f32") => judge_limit::<f32>(weight, test),
+            Some("f64") => judge_limit::<f64>(weight, test),
+            other => panic!("{}: no such format: {other:?}", test["id"]),
+        }
+    });
+}
+
+#[test]
+fn the_radial_limit_is_as_near_as_guaranteed() {
+    check_limit("radial", Weight::Radial);
+}
+
+#[test]
+fn the_area_limit_is_as_near_as_guaranteed() {
+    check_limit("area", Weight::Area);
 }
 
 #[test]

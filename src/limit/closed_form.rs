@@ -1,0 +1,102 @@
+//! The limits in closed form (Eq. 7 and its counterpart by area), by piecewise polynomials in 64-bit integers.
+//!
+//! With `α = z / σ`, `b = √(ln 4)` and `A(a) = int_0^a H(e^(-t^2/2)) dt`, `C(a) = int_0^a A(t) dt`, `B = int_0^b t H(e^(-t^2/2)) dt`:
+//!
+//! ```text
+//! radial = 1 - (A(b) + A(α)) / (α + b)        area = 1 - 2 (α A(b) + B + C(α)) / (α + b)^2
+//! ```
+//!
+//! Both depend on `α` alone, and each is one polynomial on each of 233 panels ([`locate`]). The chapter
+//! [`limit`](crate::book::limit) derives the form and proves the bound.
+
+#[rustfmt::skip] // as `proofs/limit_tables.py` writes it
+mod tables;
+
+use super::Weight;
+use crate::real::Real;
+use crate::rounded::{horner, normalised, round_integer, shift_right};
+use crate::sensor::GaussianSensor;
+
+/// The polynomial of a limit on one panel: its value in the middle, scale 120, and the coefficients of `y`, `y^2`, ..., scale 67.
+///
+/// `y`, in `[-1/2, 1/2)`, is the distance from the middle in widths of the panel.
+type Panel = (u128, &'static [i64]);
+
+/// The octaves `[2^octave, 2^(octave + 1))` of `α` with panels of their own: the first and the last.
+const LOWEST: i32 = -24;
+const HIGHEST: i32 = 3;
+/// An octave has `2^3` panels.
+const SPLIT: u32 = 3;
+/// The panels: one for all lower octaves, those of the octaves, and, for all higher ones, as many as an octave has.
+const PANELS: usize = BEYOND + (1 << SPLIT);
+const BEYOND: usize = 1 + (((HIGHEST - LOWEST + 1) as usize) << SPLIT);
+
+/// The limit of the mean information of one reading, as cells shrink, in bits per observed cell: Eq. 7 for polar maps, and its
+/// counterpart for Cartesian grids.
+///
+/// With `α = z / σ`, `b = √(ln 4)` and `H` the Bernoulli entropy of Eq. 1,
+///
+/// ```text
+/// radial = 1 - K / (α + b)                        K = int_-α^b H(e^(-t^2/2)) dt
+/// area   = 1 - 2 (α K + M) / (α + b)^2            M = int_-α^b t H(e^(-t^2/2)) dt
+/// ```
+///
+/// Error: at most 0.501 ulp, in `f32` and `f64`, for every sensor (proved in [`limit`](crate::book::limit), its polynomials by
+/// ball arithmetic). `z / σ` need not be a float: the quotient of the two floats is meant, also where it would overflow.
+///
+/// The result is in `[0.2308, 1]`. It is 1, the nearest float, where the noise is beyond reach of the format: from `z / σ` about
+/// `10^17` on in `f64`. As `α` falls to 0 it tends to 0.4258 (radial) and 0.2308 (area), not to 0: even the blindest reading
+/// tells "occupied" from "unknown". It is not monotone: see the chapter.
+///
+/// ```
+/// use mean_information::limit::{Weight, closed_form};
+/// use mean_information::sensor::GaussianSensor;
+///
+/// let sensor = GaussianSensor::new(2.0_f64, 0.2)?; // metres
+/// assert_eq!(closed_form(&sensor, Weight::Radial), 0.7893368880256514);
+/// assert_eq!(closed_form(&sensor, Weight::Area), 0.6525109529727351);
+/// # Ok::<(), mean_information::Error>(())
+/// ```
+pub fn closed_form<T: Real>(sensor: &GaussianSensor<T>, weight: Weight) -> T {
+    round_integer(value(sensor, weight), -120, true)
+}
+
+/// The limit, scale 120, with an error below `2^-65`.
+fn value<T: Real>(sensor: &GaussianSensor<T>, weight: Weight) -> u128 {
+    let (panel, y) = locate(sensor.range(), sensor.sigma());
+    let table: &[Panel; PANELS] = match weight {
+        Weight::Radial => &tables::RADIAL,
+        Weight::Area => &tables::AREA,
+    };
+    let (middle, slopes) = table[panel];
+    let rise = i128::from(horner(slopes, y, 64)) * i128::from(y);
+    (middle as i128 + (rise >> 11)) as u128
+}
+
+/// The panel of `α = range / sigma`, and `y`, scale 64, at most one unit too small.
+fn locate<T: Real>(range: T, sigma: T) -> (usize, i64) {
+    let ((z, z_exponent), (s, s_exponent)) = (normalised(range), normalised(sigma));
+    // α = z / s 2^e, and z / s is in (1/2, 2).
+    let e = z_exponent - s_exponent;
+    let octave = e - i32::from(z < s);
+    // The place among the panels from the first of the octave, scale 64.
+    let (first, place) = if octave < LOWEST {
+        (0, scaled(z, e - LOWEST + 64) / u128::from(s))
+    } else if octave <= HIGHEST {
+        let rise = (z << (e - octave)) - s;
+        (1 + (((octave - LOWEST) as usize) << SPLIT), (u128::from(rise) << (SPLIT + 64)) / u128::from(s))
+    } else {
+        // By 1/α, from 0 to 2^-4; rounded up and less one, so that the upper end does not start another panel.
+        let shift = HIGHEST + 1 + SPLIT as i32 + 64;
+        (BEYOND, scaled(s, shift - e).saturating_sub(1) / u128::from(z))
+    };
+    (first + (place >> 64) as usize, (place as u64 ^ 1 << 63) as i64)
+}
+
+/// `floor(m 2^e)`.
+fn scaled(m: u64, e: i32) -> u128 {
+    if e >= 0 { u128::from(m) << e } else { shift_right(m.into(), -e) }
+}
+
+#[cfg(test)]
+mod tests;

@@ -68,7 +68,10 @@ pub fn polar<T: Real>(sensor: &GaussianSensor<T>, resolution: T, limit: T) -> Re
 /// (min(V (1/2 + δ), W h / (8 σ)) + MI |observed - L/h|) / observed
 /// ```
 ///
-/// Proved, rounded up, and with the arguments and errors of [`polar`].
+/// Proved, rounded up, and with the arguments of [`polar`].
+///
+/// # Errors
+/// Those of [`polar`].
 ///
 /// ```
 /// use mean_information::build::PolarRoom;
@@ -136,7 +139,10 @@ pub fn cartesian<T: Real>(sensor: &GaussianSensor<T>, resolution: T, limit: T) -
 ///
 /// Nearly all of a grid's error is the second term: the sum of information is good to `h^(5/2)`.
 ///
-/// Proved, rounded up, and with the arguments and errors of [`cartesian`].
+/// Proved, rounded up, and with the arguments of [`cartesian`].
+///
+/// # Errors
+/// Those of [`cartesian`].
 ///
 /// ```
 /// use mean_information::build::CartesianRoom;
@@ -331,3 +337,6 @@ impl Observed {
         if above < T::one() { above } else { T::one() }
     }
 }
+
+#[cfg(test)]
+mod tests;

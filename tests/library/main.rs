@@ -1,10 +1,12 @@
 //! The library against its definition: properties, relations and special cases.
 
+mod bounds;
 mod cell;
 mod common;
 mod digest;
 mod elementary;
 mod guarantees;
 mod map;
+mod room;
 mod sensor;
 mod tally;

@@ -57,7 +57,7 @@ impl<T: Real> Axis<T> {
         if self.is_symmetric() {
             self.cell(order as i64, offset)
         } else {
-            let side = if order % 2 == 0 { offset } else { -offset };
+            let side = if order.is_multiple_of(2) { offset } else { -offset };
             self.cell(order.div_ceil(2) as i64, side)
         }
     }

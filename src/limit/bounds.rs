@@ -12,7 +12,8 @@
 //! are used here. All arithmetic is rounded outwards, in `f64`.
 
 use super::upwards::Up;
-use crate::cell::{in_unit_interval, information};
+use super::{Weight, closed_form};
+use crate::cell::information;
 use crate::error::{Error, positive};
 use crate::real::Real;
 use crate::sensor::{GaussianSensor, InverseSensorModel};
@@ -38,26 +39,23 @@ const BEND: Up = Up(6.7619);
 /// number of rings whose centre falls on `ρ = z - σ √(ln 4)`, where `p = 1/2`: decided, mostly 0. `δ` and terms not shown are
 /// of the order of the rounding of the grid's cells in `T`; they are included.
 ///
-/// `limit` is `MI`, or any number that is not more than 4 ulp below it: 1 will do, and gives a weaker bound.
-///
 /// Proved ([`convergence`](crate::book::convergence)), for every sensor and resolution; rounded up.
 ///
 /// # Errors
-/// [`Error::OutOfRange`] if the resolution is not positive and finite, or `limit` not in `[0, 1]`.
+/// [`Error::OutOfRange`] if the resolution is not positive and finite.
 ///
 /// ```
 /// use mean_information::build::PolarRoom;
-/// use mean_information::limit::bounds;
+/// use mean_information::limit::{Weight, bounds, closed_form};
 /// use mean_information::sensor::GaussianSensor;
 /// let sensor = GaussianSensor::new(2.0_f64, 0.2)?;
-/// let limit = 0.7893368880256514; // Eq. 7
-/// let error = PolarRoom::new(sensor, 0.01)?.tally()?.mean_information() - limit;
+/// let error = PolarRoom::new(sensor, 0.01)?.tally()?.mean_information() - closed_form(&sensor, Weight::Radial);
 /// assert_eq!(error, -0.0015928739679037518);
-/// assert_eq!(bounds::polar(&sensor, 0.01, limit)?, 0.0019589053762021393);
+/// assert_eq!(bounds::polar(&sensor, 0.01)?, 0.001958905376202138);
 /// # Ok::<(), mean_information::Error>(())
 /// ```
-pub fn polar<T: Real>(sensor: &GaussianSensor<T>, resolution: T, limit: T) -> Result<T, Error> {
-    let room = Room::new(sensor, resolution, limit)?;
+pub fn polar<T: Real>(sensor: &GaussianSensor<T>, resolution: T) -> Result<T, Error> {
+    let room = Room::new(sensor, resolution, Weight::Radial)?;
     let beam = room.beam();
     Ok(beam.before_counting(room.limit, room.rings_at_one_half()))
 }
@@ -68,29 +66,27 @@ pub fn polar<T: Real>(sensor: &GaussianSensor<T>, resolution: T, limit: T) -> Re
 /// (min(V (1/2 + δ), W h / (8 σ)) + MI |observed - L/h|) / observed
 /// ```
 ///
-/// Proved, rounded up, and with the arguments of [`polar`].
+/// Proved, and rounded up.
 ///
 /// # Errors
-/// Those of [`polar`].
+/// That of [`polar`].
 ///
 /// ```
 /// use mean_information::build::PolarRoom;
 /// use mean_information::limit::bounds;
 /// use mean_information::sensor::GaussianSensor;
 /// let sensor = GaussianSensor::new(2.0_f64, 0.2)?;
-/// let limit = 0.7893368880256514;
 /// let tally = PolarRoom::new(sensor, 0.01)?.tally()?;
 /// assert_eq!(tally.observed(), 224); // of 223.548 by length
-/// assert_eq!(bounds::polar_with_count(&sensor, 0.01, limit, tally.observed())?, 0.0017807318105608544);
+/// assert_eq!(bounds::polar_with_count(&sensor, 0.01, tally.observed())?, 0.0017807318105608533);
 /// # Ok::<(), mean_information::Error>(())
 /// ```
 pub fn polar_with_count<T: Real>(
     sensor: &GaussianSensor<T>,
     resolution: T,
-    limit: T,
     observed: u64,
 ) -> Result<T, Error> {
-    let room = Room::new(sensor, resolution, limit)?;
+    let room = Room::new(sensor, resolution, Weight::Radial)?;
     Ok(room.beam().with_count(room.limit, observed))
 }
 
@@ -107,26 +103,25 @@ pub fn polar_with_count<T: Real>(
 /// that of the circle where `p = 1/2`, as many of whose points can be cell centres (0 if `z < σ √(ln 4)`, and `2 e + δ` where
 /// cells are so fine that rounding widens the circle).
 ///
-/// So the error falls at least as `h^(4/3)`. `limit` is `MI`, or any number that is not more than 4 ulp below it.
+/// So the error falls at least as `h^(4/3)`.
 ///
 /// Proved ([`convergence`](crate::book::convergence)), for every sensor, resolution and offset; rounded up.
 ///
 /// # Errors
-/// [`Error::OutOfRange`] if the resolution is not positive and finite, or `limit` not in `[0, 1]`.
+/// [`Error::OutOfRange`] if the resolution is not positive and finite.
 ///
 /// ```
 /// use mean_information::build::CartesianRoom;
-/// use mean_information::limit::bounds;
+/// use mean_information::limit::{Weight, bounds, closed_form};
 /// use mean_information::sensor::GaussianSensor;
 /// let sensor = GaussianSensor::new(2.0_f64, 0.2)?;
-/// let limit = 0.6525109529727351;
 /// let tally = CartesianRoom::new(sensor, 0.01, [0.5, 0.5])?.tally()?;
-/// assert_eq!(tally.mean_information() - limit, -7.769584712724598e-5);
-/// assert_eq!(bounds::cartesian(&sensor, 0.01, limit)?, 0.0019688054423076602);
+/// assert_eq!(tally.mean_information() - closed_form(&sensor, Weight::Area), -7.769584712724598e-5);
+/// assert_eq!(bounds::cartesian(&sensor, 0.01)?, 0.001968805442307659);
 /// # Ok::<(), mean_information::Error>(())
 /// ```
-pub fn cartesian<T: Real>(sensor: &GaussianSensor<T>, resolution: T, limit: T) -> Result<T, Error> {
-    let room = Room::new(sensor, resolution, limit)?;
+pub fn cartesian<T: Real>(sensor: &GaussianSensor<T>, resolution: T) -> Result<T, Error> {
+    let room = Room::new(sensor, resolution, Weight::Area)?;
     let disc = room.disc();
     Ok(disc.before_counting(room.limit, room.cells_at_one_half(disc.miscount)))
 }
@@ -139,28 +134,26 @@ pub fn cartesian<T: Real>(sensor: &GaussianSensor<T>, resolution: T, limit: T) -
 ///
 /// Nearly all of a grid's error is the second term: the sum of information is good to `h^(5/2)`.
 ///
-/// Proved, rounded up, and with the arguments of [`cartesian`].
+/// Proved, and rounded up.
 ///
 /// # Errors
-/// Those of [`cartesian`].
+/// That of [`cartesian`].
 ///
 /// ```
 /// use mean_information::build::CartesianRoom;
 /// use mean_information::limit::bounds;
 /// use mean_information::sensor::GaussianSensor;
 /// let sensor = GaussianSensor::new(2.0_f64, 0.2)?;
-/// let limit = 0.6525109529727351;
 /// let tally = CartesianRoom::new(sensor, 0.01, [0.5, 0.5])?.tally()?;
-/// assert_eq!(bounds::cartesian_with_count(&sensor, 0.01, limit, tally.observed())?, 0.00011214103522213834);
+/// assert_eq!(bounds::cartesian_with_count(&sensor, 0.01, tally.observed())?, 0.00011214103522213827);
 /// # Ok::<(), mean_information::Error>(())
 /// ```
 pub fn cartesian_with_count<T: Real>(
     sensor: &GaussianSensor<T>,
     resolution: T,
-    limit: T,
     observed: u64,
 ) -> Result<T, Error> {
-    let room = Room::new(sensor, resolution, limit)?;
+    let room = Room::new(sensor, resolution, Weight::Area)?;
     Ok(room.disc().with_count(room.limit, observed))
 }
 
@@ -174,7 +167,7 @@ struct Room {
     radius: [f64; 2],
     /// `V`.
     variation: Up,
-    /// `MI`.
+    /// `MI`, the limit.
     limit: Up,
     /// `u = 2^-P`: numbers are rounded by at most so much of their value, occupancies by half of it.
     unit: Up,
@@ -198,11 +191,8 @@ fn quotient(a: f64, b: f64) -> [f64; 2] {
 }
 
 impl Room {
-    fn new<T: Real>(sensor: &GaussianSensor<T>, resolution: T, limit: T) -> Result<Self, Error> {
+    fn new<T: Real>(sensor: &GaussianSensor<T>, resolution: T, weight: Weight) -> Result<Self, Error> {
         let resolution = positive("resolution", resolution)?.widen();
-        if !in_unit_interval(limit) {
-            return Err(Error::out_of_range("limit", limit.widen(), "0 to 1"));
-        }
         let bits = T::PRECISION as i32;
         // Distances below the normal range are rounded by more. Floats that hold no distances of the room give no bound.
         let smallest = T::from_parts(1, T::MIN_EXPONENT).widen();
@@ -221,7 +211,8 @@ impl Room {
         let information = information(at_the_sensor).widen();
         let change = if at_the_sensor > T::HALF { -information } else { information };
         let variation = Up((2.0 + change).next_up()) + rounding;
-        let limit = (Up(limit.widen()) * (Up(1.0) + Up(8.0) * unit)).or(Up(1.0));
+        // The closed form is less than an ulp below.
+        let limit = (Up(closed_form(sensor, weight).widen()) * (Up(1.0) + Up(2.0) * unit)).or(Up(1.0));
         Ok(Self { range, sigma, radius, variation, limit, unit, rounding })
     }
 

@@ -72,12 +72,10 @@ fn check_file(op: &str, tolerance: f64, least: usize, judge: impl Fn(&Value) -> 
 
 /// The file of one function of a cell.
 fn check(name: &str, single: fn(f32) -> f32, double: fn(f64) -> f64, least: usize) {
-    check_file(&format!("cell.{name}"), 0.5, least, |test| {
-        match test["format"].as_str() {
-            Some("f32") => judge(single, test),
-            Some("f64") => judge(double, test),
-            other => panic!("{}: no such format: {other:?}", test["id"]),
-        }
+    check_file(&format!("cell.{name}"), 0.5, least, |test| match test["format"].as_str() {
+        Some("f32") => judge(single, test),
+        Some("f64") => judge(double, test),
+        other => panic!("{}: no such format: {other:?}", test["id"]),
     });
 }
 
@@ -103,12 +101,10 @@ fn judge_limit<T: Real>(weight: Weight, test: &Value) -> Option<String> {
 
 /// The file of one limit.
 fn check_limit(name: &str, weight: Weight) {
-    check_file(&format!("limit.{name}"), 2.0, 1200, |test| {
-        match test["format"].as_str() {
-            Some("f32") => judge_limit::<f32>(weight, test),
-            Some("f64") => judge_limit::<f64>(weight, test),
-            other => panic!("{}: no such format: {other:?}", test["id"]),
-        }
+    check_file(&format!("limit.{name}"), 2.0, 1200, |test| match test["format"].as_str() {
+        Some("f32") => judge_limit::<f32>(weight, test),
+        Some("f64") => judge_limit::<f64>(weight, test),
+        other => panic!("{}: no such format: {other:?}", test["id"]),
     });
 }
 

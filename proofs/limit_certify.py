@@ -8,9 +8,9 @@ For every panel and both weights, in ball arithmetic, hence rigorously (Arb thro
 * error: the polynomial with the integer coefficients of the file is within 2^-67 of the limit, on all of the panel;
 * derivative: that of the polynomial is at most 2^-4, so that a unit of `y` counts for 2^-68.
 
-A panel is cut into pieces. On each, the limit is its Taylor polynomial about the middle, plus a remainder whose coefficient is
-that of the Taylor series about the ball of all points of the piece (Taylor's theorem, Lagrange's form). Further, that the two
-expansions of A and C agree, and where the limits are largest and smallest: the numbers of the chapter.
+A panel is cut into pieces. On each, the limit is its Taylor polynomial about the middle, plus a remainder whose
+coefficient is that of the Taylor series about the ball of all points of the piece (Taylor's theorem). Further, that the
+two expansions of A and C agree, and where the limits are largest and smallest: the numbers of the chapter.
 """
 
 import math
@@ -42,16 +42,17 @@ def tables():
 
 
 def digest(found):
-    """FNV-1a over the numbers as decimals: the name of the tables in src/limit/closed_form/tests.rs."""
+    """FNV-1a over the numbers as decimals: what src/limit/closed_form/tests.rs knows the tables by."""
     hash = 0xCBF29CE484222325
-    text = "".join(f"{value}:" + "".join(f"{slope}," for slope in slopes) for rows in found for value, slopes in rows)
+    rows = (row for table in found for row in table)
+    text = "".join(f"{value}:" + "".join(f"{slope}," for slope in slopes) for value, slopes in rows)
     for byte in text.encode():
         hash = (hash ^ byte) * 0x100000001B3 % 2**64
     return hash
 
 
 def pieces():
-    """Middles and half-lengths; shorter towards the ends, where the difference of polynomial and limit is steepest."""
+    """Middles and half-lengths; shorter towards the ends, where polynomial and limit part most steeply."""
     ends = [-math.cos(math.pi * i / PIECES) / 2 for i in range(PIECES + 1)]
     return [((arb(lower) + upper) / 2, (arb(upper) - lower) / 2) for lower, upper in zip(ends, ends[1:])]
 
@@ -88,7 +89,9 @@ def certify(found):
     worst = [[0.0, 0.0] for _ in WEIGHTS]
     for panel, place in enumerate(panels()):
         rows = [table[panel] for table in found]
-        exact = [arb_poly([arb(value) / 2**VALUE] + [arb(c) / 2**SLOPE for c in slopes]) for value, slopes in rows]
+        exact = [
+            arb_poly([arb(value) / 2**VALUE] + [arb(c) / 2**SLOPE for c in slopes]) for value, slopes in rows
+        ]
         for y, half in pieces():
             for w, limit in enumerate(models(*place, y, half)):
                 difference = exact[w](arb_poly([y, 1])) - limit
@@ -104,7 +107,8 @@ def certify(found):
                 good = False
                 print(f"FAILED: {WEIGHTS[w]}, panel {panel}: derivative {float(bound):.3e}")
     for name, (error, derivative) in zip(WEIGHTS, worst):
-        print(f"{name}: {len(found[0])} panels, error {error:.3f} of 2^-67, derivative {derivative:.3f} of 2^-4")
+        count = len(found[0])
+        print(f"{name}: {count} panels, error {error:.3f} of 2^-67, derivative {derivative:.3f} of 2^-4")
     return good
 
 

@@ -1,11 +1,11 @@
 """The two limits and their Taylor series in Arb's ball arithmetic (python-flint): rigorous, to any precision.
 
-Notation of docs/limit.md: `A(a)` is the integral of H2(e^(-t^2/2)) from 0 to a, `C(a)` that of A, b = sqrt(ln 4), and
+Notation of docs/limit.md: `A(a)` is the integral of H(e^(-t^2/2)) from 0 to a, `C(a)` that of A, b = sqrt(ln 4), and
 
-    1 - MI_radial = (A(b) + A(a)) / (a + b),    1 - MI_area = 2 (a A(b) + B + C(a)) / (a + b)^2,    a = z / sigma.
+    1 - radial = (A(b) + A(a)) / (a + b),    1 - area = 2 (a A(b) + B + C(a)) / (a + b)^2,    a = z / sigma.
 
-A and C have two expansions each, a power series about 0 and one in complementary error functions and dilogarithms, which
-share nothing; limit_certify.py compares them. Needs python-flint.
+A and C have two expansions each, a power series about 0 and one in complementary error functions and dilogarithms,
+which share nothing; limit_certify.py compares them. Needs python-flint.
 """
 
 from functools import cache
@@ -151,7 +151,7 @@ def one(order):
 
 
 def taylor(centre, order, ball=None):
-    """The Taylor series of both limits about a point; or, with a ball, enclosures of the coefficients about all points in it."""
+    """The Taylor series of both limits about a point; with a ball, their coefficients about all points in it."""
     first, second = small(centre) if centre < MEETING else large(centre)
     t = line(centre if ball is None else ball, order)
     entropy = entropy_series(t)

@@ -3,8 +3,9 @@
 
     proofs/limit_tables.py > src/limit/closed_form/tables.rs
 
-A panel's polynomial interpolates the limit at the Chebyshev nodes of the panel, with as few terms as keep it within 2^-68, and
-its coefficients are rounded to integers. What that leaves is for proofs/limit_certify.py to prove. Needs python-flint.
+A panel's polynomial interpolates the limit at the Chebyshev nodes of the panel, with as few terms as keep it within
+2^-68, and its coefficients are rounded to integers. How good the result is, proofs/limit_certify.py proves. Needs
+python-flint.
 """
 
 import math
@@ -41,7 +42,7 @@ def polynomial(coefficients, y):
 
 
 def functions(start, width, far):
-    """Both limits as functions of y, from -1/2 to 1/2 across the panel: callables that are good to far more than 2^-120."""
+    """Both limits as functions of y, from -1/2 to 1/2 across the panel, good to far more than 2^-120."""
     if start == 0 and not far:
         return [lambda y, w=w: at(width * (y + arb(1) / 2))[w] for w in range(2)]
     middle = start + width / 2
@@ -58,7 +59,7 @@ def nodes(n):
 
 
 def interpolant(f, n):
-    """The coefficients of the polynomial with n terms through f at the Chebyshev nodes: Newton's divided differences."""
+    """The coefficients of the polynomial with n terms through f at the Chebyshev nodes, by Newton's differences."""
     x = nodes(n)
     d = [f(t) for t in x]
     for j in range(1, n):

@@ -92,6 +92,8 @@ pub mod book {
     pub mod convergence {}
     #[doc = include_str!("../docs/rounding.md")]
     pub mod rounding {}
+    #[doc = include_str!("../docs/limit.md")]
+    pub mod limit {}
     #[doc = include_str!("../docs/guarantees.md")]
     pub mod guarantees {}
 }

@@ -1,9 +1,8 @@
 //! The limits in closed form (Eq. 7 and its counterpart by area), by piecewise polynomials in 64-bit integers.
 //!
-//! With `α = z / σ`, `b = √(ln 4)` and `A(a) = int_0^a H(e^(-t^2/2)) dt`, `C(a) = int_0^a A(t) dt`, `B = int_0^b t H(e^(-t^2/2)) dt`:
-//!
 //! ```text
-//! radial = 1 - (A(b) + A(α)) / (α + b)        area = 1 - 2 (α A(b) + B + C(α)) / (α + b)^2
+//! radial = 1 - (A(b) + A(α)) / (α + b)                  α = z / σ,  b = √(ln 4),  h(t) = H(e^(-t^2/2))
+//! area   = 1 - 2 (α A(b) + B + C(α)) / (α + b)^2        A(a) = int_0^a h(t) dt,  C(a) = int_0^a A(t) dt,  B = int_0^b t h(t) dt
 //! ```
 //!
 //! Both depend on `α` alone, and each is one polynomial on each of 233 panels ([`locate`]). The chapter
@@ -17,9 +16,9 @@ use crate::real::Real;
 use crate::rounded::{horner, normalised, round_integer, shift_right};
 use crate::sensor::GaussianSensor;
 
-/// The polynomial of a limit on one panel: its value in the middle, scale 120, and the coefficients of `y`, `y^2`, ..., scale 67.
+/// The polynomial of a limit on one panel: its constant, scale 120, and the coefficients of `y`, `y^2`, ..., scale 67.
 ///
-/// `y`, in `[-1/2, 1/2)`, is the distance from the middle in widths of the panel.
+/// `y`, in `[-1/2, 1/2)`, is the distance from the middle of the panel in widths of it.
 type Panel = (u128, &'static [i64]);
 
 /// The octaves `[2^octave, 2^(octave + 1))` of `α` with panels of their own: the first and the last.
@@ -31,22 +30,22 @@ const SPLIT: u32 = 3;
 const PANELS: usize = BEYOND + (1 << SPLIT);
 const BEYOND: usize = 1 + (((HIGHEST - LOWEST + 1) as usize) << SPLIT);
 
-/// The limit of the mean information of one reading, as cells shrink, in bits per observed cell: Eq. 7 for polar maps, and its
-/// counterpart for Cartesian grids.
+/// The limit of the mean information of one reading as cells shrink, in bits per observed cell: Eq. 7 for polar maps, and its
+/// counterpart by area for Cartesian grids.
 ///
-/// With `α = z / σ`, `b = √(ln 4)` and `H` the Bernoulli entropy of Eq. 1,
+/// With `α = z / σ`, `b = √(ln 4)` and the Bernoulli entropy `H` of Eq. 1, in bits,
 ///
 /// ```text
 /// radial = 1 - K / (α + b)                        K = int_-α^b H(e^(-t^2/2)) dt
 /// area   = 1 - 2 (α K + M) / (α + b)^2            M = int_-α^b t H(e^(-t^2/2)) dt
 /// ```
 ///
-/// Error: at most 0.501 ulp, in `f32` and `f64`, for every sensor (proved in [`limit`](crate::book::limit), its polynomials by
-/// ball arithmetic). `z / σ` need not be a float: the quotient of the two floats is meant, also where it would overflow.
+/// Error: at most 0.501 ulp in `f32` and `f64`, for every sensor (proved in the chapter [`limit`](crate::book::limit), with its
+/// tables by ball arithmetic). `α` is the exact quotient of the two floats: it may overflow or underflow.
 ///
-/// The result is in `[0.2308, 1]`. It is 1, the nearest float, where the noise is beyond reach of the format: from `z / σ` about
-/// `10^17` on in `f64`. As `α` falls to 0 it tends to 0.4258 (radial) and 0.2308 (area), not to 0: even the blindest reading
-/// tells "occupied" from "unknown". It is not monotone: see the chapter.
+/// The result is in `[0.357, 1]` (radial) or `[0.230, 1]` (area). As `α` falls to 0 it tends to 0.4258 or 0.2308; it rises with
+/// `α` from 1.903 or 2.550 on, but not everywhere below (same chapter). It is 1 where 1 is the nearest float: in `f64` from
+/// `α = 4.3e16` or `8.5e16` on.
 ///
 /// ```
 /// use mean_information::limit::{Weight, closed_form};
@@ -58,7 +57,7 @@ const BEYOND: usize = 1 + (((HIGHEST - LOWEST + 1) as usize) << SPLIT);
 /// # Ok::<(), mean_information::Error>(())
 /// ```
 pub fn closed_form<T: Real>(sensor: &GaussianSensor<T>, weight: Weight) -> T {
-    round_integer(value(sensor, weight), -120, true)
+    round_integer(value(sensor, weight), -120, false)
 }
 
 /// The limit, scale 120, with an error below `2^-65`.

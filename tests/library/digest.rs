@@ -4,12 +4,13 @@ use mean_information::cell::{
     entropy, entropy_from_log_odds, information, information_from_log_odds, occupancy_from_log_odds,
 };
 use mean_information::elementary::{exp, ln, sqrt};
+use mean_information::limit::{Weight, closed_form};
 use mean_information::map::{Geometry, Grid, encoding::Probability};
 use mean_information::sensor::{GaussianSensor, InverseSensorModel};
 use mean_information::{Real, Tally, cell::Cell};
 
 /// The digest, everywhere. If it changes and what is digested did not, results changed: say so in CHANGELOG.md.
-pub(crate) const DIGEST: u64 = 0xa9e9_3d0f_b1b0_0fa1;
+pub(crate) const DIGEST: u64 = 0x3e0b_a3be_7730_d1b9;
 
 /// FNV-1a over the bits of every result.
 struct Digest(u64);
@@ -54,6 +55,17 @@ pub(crate) fn digest() -> u64 {
             digest.update(entropy_from_log_odds(l as f32));
             digest.update(information_from_log_odds(l as f32));
             digest.update(occupancy_from_log_odds(l as f32));
+        }
+        // Rooms, and quotients of every size.
+        let sigma = ((bits & 0xffff) + 1) as f64 / 65536.0;
+        for range in [10.0 * uniform + sigma, tiny.max(f64::MIN_POSITIVE) * 1e18] {
+            let double = GaussianSensor::new(range, sigma).expect("positive and finite");
+            let single = GaussianSensor::new((range as f32).max(f32::MIN_POSITIVE), sigma as f32);
+            let single = single.expect("positive and finite");
+            for weight in [Weight::Radial, Weight::Area] {
+                digest.update(closed_form(&double, weight));
+                digest.update(closed_form(&single, weight));
+            }
         }
     }
     digest.update(tally.mean_information());

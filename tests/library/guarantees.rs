@@ -1,7 +1,7 @@
 //! The table of guarantees: `docs/guarantees.md` says the same, and what it cites is there.
 
 use mean_information::sensor::{GaussianSensor, InverseSensorModel};
-use mean_information::{ExactSum, Tally, cell, elementary, map};
+use mean_information::{ExactSum, Tally, cell, elementary, limit, map};
 use std::fs;
 use std::path::Path;
 
@@ -27,7 +27,7 @@ macro_rules! guarantees {
 }
 
 /// Every function with a bound on its error.
-pub(crate) fn guarantees() -> [Guarantee; 16] {
+pub(crate) fn guarantees() -> [Guarantee; 17] {
     guarantees! {
         elementary::exp::<f64> => "elementary::exp", 0.5, Proved;
         elementary::ln::<f64> => "elementary::ln", 0.5, Proved;
@@ -45,6 +45,7 @@ pub(crate) fn guarantees() -> [Guarantee; 16] {
         map::Grid::<map::encoding::Percent>::pooled => "Grid::pooled", 0.5, Proved;
         GaussianSensor::<f64>::occupancy => "GaussianSensor::occupancy", 0.5, Proved;
         GaussianSensor::<f64>::reach => "GaussianSensor::reach", 2.0, Proved;
+        limit::closed_form::<f64> => "limit::closed_form", 0.501, Proved;
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod bounds;
 mod cell;
+mod closed_form;
 mod common;
 mod digest;
 mod elementary;

@@ -1,5 +1,5 @@
-//! The vectors: every result of a function of a cell must be the float nearest to the exact value, and every limit as near as
-//! the table of guarantees says.
+//! The vectors: every result of a function of a cell must be the float nearest to the exact value, and every limit as near
+//! to it as the table of guarantees says.
 //!
 //! Decided in integers of any size, from the decimals as they are written; no decimal is ever parsed as a float.
 

@@ -1,4 +1,5 @@
-//! The fixed-point value against the vectors, which other tools made; the places in the panels; what the proof says of the tables.
+//! The fixed-point value against the vectors, which other tools made; the places in the panels; what the proof takes from the
+//! tables.
 
 use super::*;
 use num_bigint::BigUint;
@@ -103,8 +104,8 @@ proptest! {
     }
 }
 
-/// What the chapter's proof takes from the tables and is no matter of real numbers: a unit of `y` counts for at most `2^-68`, and
-/// the sums of Horner's rule fit in 63 bits.
+/// Two of three things that the chapter's proof takes from the tables: a unit of `y` counts for at most `2^-68`, and the sums of
+/// Horner's rule fit in 63 bits.
 #[test]
 fn the_tables_fit_the_proof() {
     for (_, name, table) in WEIGHTS {

@@ -35,6 +35,7 @@
 //! | [`sensor`] | inverse sensor models: what a range reading says of a point | 5 |
 //! | [`build`] | the maps that one reading gives of a circular room: polar and Cartesian | 4, 5 |
 //! | [`limit`] | what the mean information of one scan tends to as cells shrink | 6, 7 |
+//! | [`quadrature`] | integrals of functions of one variable | |
 //! | [`estimate`] | results with an estimated error, and results with a proved enclosure | |
 //! | [`scalar`] | what integrands are written in: floats, intervals, jets | |
 //! | [`real`] | the two formats of floats | |
@@ -68,6 +69,7 @@ mod error;
 pub mod estimate;
 pub mod limit;
 pub mod map;
+pub mod quadrature;
 pub mod real;
 mod rounded;
 pub mod scalar;
@@ -94,6 +96,8 @@ pub mod book {
     pub mod rounding {}
     #[doc = include_str!("../docs/limit.md")]
     pub mod limit {}
+    #[doc = include_str!("../docs/quadrature.md")]
+    pub mod quadrature {}
     #[doc = include_str!("../docs/guarantees.md")]
     pub mod guarantees {}
 }

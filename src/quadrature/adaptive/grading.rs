@@ -1,0 +1,56 @@
+//! Break points that crowd towards a point.
+
+use crate::error::Error;
+use crate::real::Real;
+use alloc::vec::Vec;
+
+/// The most panels that are graded: an `f64` halved that often has long been 0.
+const MOST: usize = 10_000;
+
+/// Break points from `from` to `towards`, where the panels shrink geometrically: `towards + (from - towards) ratio^k` for
+/// `k = 0, 1, ..., panels - 1`, and `towards`. In ascending order, whichever end is the upper.
+///
+/// For [`integrate_between`](super::GaussKronrod::integrate_between): towards a singularity, to spare the halvings that would find
+/// it; towards the end where the mass of a long interval lies.
+///
+/// **Error**: each point within `k + 3` ulp of the largest magnitude of the ends (proved: the distance is rounded twice, each
+/// power once more than the one before, and the sum once). Points that coincide are harmless, and left.
+///
+/// # Errors
+/// [`Error::OutOfRange`] if an end is not finite, `ratio` not in (0, 1), or `panels` not in 1 to 10 000.
+///
+/// ```
+/// use mean_information::quadrature::adaptive::graded;
+/// assert_eq!(graded(0.0, 2.0, 0.25, 4)?, [0.0, 1.5, 1.875, 1.96875, 2.0]);
+/// assert_eq!(graded(1000.0, 0.0, 0.125, 4)?, [0.0, 1.953125, 15.625, 125.0, 1000.0]);
+/// # Ok::<(), mean_information::Error>(())
+/// ```
+pub fn graded<T: Real>(from: T, towards: T, ratio: T, panels: usize) -> Result<Vec<T>, Error> {
+    for end in [from, towards] {
+        if !end.is_finite() {
+            return Err(Error::out_of_range("end of a grading", end.widen(), "finite numbers"));
+        }
+    }
+    if !(ratio > T::zero() && ratio < T::one()) {
+        return Err(Error::out_of_range("ratio of a grading", ratio.widen(), "above 0 and below 1"));
+    }
+    if !(1..=MOST).contains(&panels) {
+        return Err(Error::out_of_range("number of panels", panels as f64, "1 to 10000"));
+    }
+    // Half of each: the distance of two floats may be none.
+    let (half, distance) = (towards * T::HALF, from * T::HALF - towards * T::HALF);
+    let (low, high) = (from.min(towards), from.max(towards));
+    let mut points = Vec::with_capacity(panels + 1);
+    let mut power = T::one();
+    for _ in 0..panels {
+        let point = half + distance * power;
+        points.push((point + point).max(low).min(high));
+        power = power * ratio;
+    }
+    points[0] = from;
+    points.push(towards);
+    if towards < from {
+        points.reverse();
+    }
+    Ok(points)
+}

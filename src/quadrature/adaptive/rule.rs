@@ -1,0 +1,226 @@
+//! Gauss-Kronrod rules: `2n + 1` values of the integrand give the integral twice, with the `n` nodes of Gauss and with all,
+//! and the coefficients of its Legendre series, which tell how fast either converges.
+
+use super::compensated::Compensated;
+use super::stretch::Stretch;
+use super::tables;
+use crate::real::Real;
+
+/// A Gauss-Kronrod pair, named after its evaluations.
+///
+/// With `n` nodes of Gauss the rule has `2n + 1` nodes and integrates polynomials of degree `3n + 1` exactly. Nodes and weights are
+/// correctly rounded in either format (proved: the decimals they are written as, to 36 digits, are those of the rule, and the
+/// compiler rounds once; for `f32`, rounding twice makes no difference). Few nodes suit
+/// singularities and peaks, where panels are halved many times; many suit smooth and oscillating integrands.
+///
+/// ```
+/// use mean_information::quadrature::adaptive::Rule;
+/// assert_eq!(Rule::K21.evaluations(), 21);
+/// assert_eq!(Rule::K21.degree(), 31);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rule {
+    /// 7 nodes of Gauss, 15 in all.
+    K15,
+    /// 10 nodes of Gauss, 21 in all.
+    K21,
+    /// 15 nodes of Gauss, 31 in all.
+    K31,
+    /// 20 nodes of Gauss, 41 in all.
+    K41,
+    /// 25 nodes of Gauss, 51 in all.
+    K51,
+    /// 30 nodes of Gauss, 61 in all.
+    K61,
+}
+
+/// The most nodes of a rule.
+const MOST: usize = 61;
+
+/// One side of a rule, from the outermost node to the middle.
+struct Table {
+    nodes: &'static [f64],
+    kronrod: &'static [f64],
+    gauss: &'static [f64],
+    bands: &'static [[f64; 8]],
+}
+
+/// What one application of a rule tells of a stretch.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Reading<T> {
+    /// The integral by all nodes.
+    pub(super) value: T,
+    /// How far off it seems to be by these values alone, rounding apart.
+    pub(super) difference: T,
+    /// The ratio of the upper band of the Legendre series to the lower, at most 1.
+    pub(super) decay: T,
+    /// A bound on what rounding has done to `value`.
+    pub(super) noise: T,
+}
+
+impl Rule {
+    /// Every rule, from the fewest nodes to the most.
+    pub const ALL: [Self; 6] = [Self::K15, Self::K21, Self::K31, Self::K41, Self::K51, Self::K61];
+
+    /// How many values of the integrand one application takes, `2n + 1`.
+    pub const fn evaluations(self) -> u64 {
+        self.table().nodes.len() as u64 * 2 - 1
+    }
+
+    /// The highest degree of polynomials that are integrated exactly: `3n + 1`, or `3n + 2` for odd `n`, by symmetry.
+    pub const fn degree(self) -> u64 {
+        (3 * self.table().nodes.len() as u64 - 2) | 1
+    }
+
+    /// The least limit on evaluations, in words.
+    pub(super) const fn least(self) -> &'static str {
+        match self {
+            Self::K15 => "15 or more for each panel between break points",
+            Self::K21 => "21 or more for each panel between break points",
+            Self::K31 => "31 or more for each panel between break points",
+            Self::K41 => "41 or more for each panel between break points",
+            Self::K51 => "51 or more for each panel between break points",
+            Self::K61 => "61 or more for each panel between break points",
+        }
+    }
+
+    const fn table(self) -> Table {
+        macro_rules! table {
+            ($nodes:ident, $kronrod:ident, $gauss:ident) => {
+                Table {
+                    nodes: &tables::$nodes,
+                    kronrod: &tables::$kronrod,
+                    gauss: &tables::$gauss,
+                    bands: const { &bands(&tables::$nodes) },
+                }
+            };
+        }
+        match self {
+            Self::K15 => table!(NODES_15, KRONROD_15, GAUSS_15),
+            Self::K21 => table!(NODES_21, KRONROD_21, GAUSS_21),
+            Self::K31 => table!(NODES_31, KRONROD_31, GAUSS_31),
+            Self::K41 => table!(NODES_41, KRONROD_41, GAUSS_41),
+            Self::K51 => table!(NODES_51, KRONROD_51, GAUSS_51),
+            Self::K61 => table!(NODES_61, KRONROD_61, GAUSS_61),
+        }
+    }
+
+    /// The outermost node.
+    pub(super) fn outermost<T: Real>(self) -> T {
+        T::nearest(self.table().nodes[0])
+    }
+
+    /// Applies the rule to a stretch; evaluates in ascending order.
+    pub(super) fn apply<T: Real>(self, f: &mut impl FnMut(T) -> T, stretch: Stretch<T>) -> Reading<T> {
+        let table = self.table();
+        let last = 2 * (table.nodes.len() - 1);
+        let mut values = [T::zero(); MOST];
+        let values = &mut values[..=last];
+        for (i, &node) in table.nodes.iter().enumerate() {
+            [values[i], values[last - i]] = stretch.pair(T::nearest(node));
+        }
+        for value in values.iter_mut() {
+            *value = f(*value);
+        }
+        table.read(values, stretch)
+    }
+}
+
+impl Table {
+    /// What the values at the nodes, in ascending order, tell of the stretch.
+    fn read<T: Real>(&self, values: &[T], stretch: Stretch<T>) -> Reading<T> {
+        let last = values.len() - 1;
+        // Means rather than integrals: nothing overflows that need not.
+        let half = |weight: f64| T::nearest(weight) * T::HALF;
+        let (mut by_all, mut by_gauss) = (Compensated::default(), Compensated::default());
+        let (mut size, mut series) = (T::zero(), [T::zero(); 8]);
+        for (i, (&weight, band)) in self.kronrod.iter().zip(self.bands).enumerate() {
+            let before = if i == last - i { T::zero() } else { values[i] };
+            let after = values[last - i];
+            let [low, high] = [before, after].map(|value| half(weight) * value);
+            by_all = by_all.plus(low).plus(high);
+            size = size + (low.abs() + high.abs());
+            if i % 2 == 1 {
+                let weight = half(self.gauss[i / 2]);
+                by_gauss = by_gauss.plus(weight * before).plus(weight * after);
+            }
+            let by_parity = [high + low, high - low];
+            for (k, coefficient) in series.iter_mut().enumerate() {
+                *coefficient = *coefficient + T::nearest(band[k]) * by_parity[k % 2];
+            }
+        }
+
+        let [lower, upper] = [&series[..4], &series[4..]]
+            .map(|band| band.iter().fold(T::zero(), |sum, coefficient| sum + coefficient.abs()));
+        let decay = match upper {
+            _ if upper < lower => upper / lower,
+            _ if upper.is_zero() => upper,
+            _ => T::one(),
+        };
+        let apart = (by_all.value() - by_gauss.value()).abs();
+        let difference = if upper.is_finite() { apart.max(upper * decay) } else { T::infinity() };
+        Reading {
+            value: stretch.widths(by_all.value()),
+            difference: stretch.widths(difference),
+            decay,
+            noise: noise(values, size, stretch),
+        }
+    }
+}
+
+/// A bound on what rounding does to the integral over a stretch, given the mean of `|f|`.
+///
+/// In units of the epsilon `2u`: relative to `|f|`, 1/2 each for weight, product, sum, width and last product, 2 for the
+/// integrand, and 1/2 to spare; in the argument, 2 for the node (`c ± h x` has six roundings, below `4u` of the end in all) and
+/// 2 for the integrand's own. Below the normal range, a spacing for every product and sum.
+fn noise<T: Real>(values: &[T], size: T, stretch: Stretch<T>) -> T {
+    let epsilon = T::epsilon();
+    let [four, five] = [4, 5].map(|k| T::from_parts(k, 0));
+    let variation =
+        values.windows(2).fold(T::zero(), |sum, pair| sum + (epsilon * pair[1] - epsilon * pair[0]).abs());
+    let floor = if values.iter().all(T::is_zero) {
+        T::zero()
+    } else {
+        T::from_parts(4 * MOST as u64, T::MIN_EXPONENT)
+    };
+    stretch.widths(five * epsilon * size + floor) + four * variation * stretch.magnitude() + floor
+}
+
+/// What turns the values of one side into two bands of the Legendre series, the coefficients of degrees `n - 3` to `n` and of
+/// four up to `(3n + 1) / 2`: the highest that Kronrod's rule finds without a share of lower ones, as the product of two
+/// polynomials of that degree is one that it integrates.
+///
+/// A coefficient is that of the orthonormal polynomial `√(2k + 1) P_k(x)`. Degree `k` stands in place `k % 4` of its band, so that the
+/// parity of the place is that of the polynomial.
+const fn bands<const N: usize>(nodes: &[f64; N]) -> [[f64; 8]; N] {
+    let mut result = [[0.0; 8]; N];
+    let (low, high) = (N - 1, (3 * N - 2) / 2);
+    let mut i = 0;
+    while i < N {
+        // (k + 1) P_{k+1} = (2k + 1) x P_k - k P_{k-1}
+        let (mut previous, mut current, mut k) = (0.0, 1.0, 0);
+        while k <= high {
+            let value = square_root((2 * k + 1) as f64) * current;
+            if k + 3 >= low && k <= low {
+                result[i][k % 4] = value;
+            } else if k + 3 >= high {
+                result[i][4 + k % 4] = value;
+            }
+            let next = ((2 * k + 1) as f64 * nodes[i] * current - k as f64 * previous) / (k + 1) as f64;
+            (previous, current, k) = (current, next, k + 1);
+        }
+        i += 1;
+    }
+    result
+}
+
+/// Heron's method, from above, for the compiler.
+const fn square_root(x: f64) -> f64 {
+    let mut root = x;
+    let mut step = 0;
+    while step < 12 {
+        root += (x / root - root) / 2.0;
+        step += 1;
+    }
+    root
+}

@@ -1,0 +1,45 @@
+//! An interval of arguments, and where the nodes of a rule fall in it.
+
+use crate::real::Real;
+
+/// From `lower` to `upper`, both finite, `lower < upper`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stretch<T> {
+    pub(super) lower: T,
+    pub(super) upper: T,
+}
+
+impl<T: Real> Stretch<T> {
+    pub(super) fn midpoint(self) -> T {
+        let sum = self.lower + self.upper;
+        if sum.is_finite() { sum * T::HALF } else { self.lower * T::HALF + self.upper * T::HALF }
+    }
+
+    /// `x (upper - lower)`, also where the width is no float.
+    pub(super) fn widths(self, x: T) -> T {
+        let width = self.upper - self.lower;
+        if width.is_finite() { width * x } else { (self.upper * T::HALF - self.lower * T::HALF) * (x + x) }
+    }
+
+    /// The image of the nodes `-node` and `node` of `[-1, 1]`.
+    pub(super) fn pair(self, node: T) -> [T; 2] {
+        let (middle, offset) = (self.midpoint(), self.widths(node * T::HALF));
+        [(middle - offset).max(self.lower), (middle + offset).min(self.upper)]
+    }
+
+    pub(super) fn halves(self) -> [Self; 2] {
+        let middle = self.midpoint();
+        [Self { upper: middle, ..self }, Self { lower: middle, ..self }]
+    }
+
+    /// Whether floats are dense enough for the outermost nodes to stay off the ends.
+    pub(super) fn has_room_for(self, outermost: T) -> bool {
+        let [first, last] = self.pair(outermost);
+        self.lower < first && last < self.upper
+    }
+
+    /// The largest magnitude of an argument.
+    pub(super) fn magnitude(self) -> T {
+        self.lower.abs().max(self.upper.abs())
+    }
+}

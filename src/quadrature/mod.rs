@@ -1,0 +1,5 @@
+//! Integrals of functions of one variable.
+//!
+//! [`adaptive`] estimates: any function of floats, an error that is believed.
+
+pub mod adaptive;

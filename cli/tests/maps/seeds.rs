@@ -13,13 +13,14 @@ mod properties;
 
 type Target = (&'static str, fn(&[u8]), fn() -> Vec<(&'static str, Vec<u8>)>);
 
-const TARGETS: [Target; 6] = [
+const TARGETS: [Target; 7] = [
     ("yaml", properties::yaml, yaml_seeds),
     ("pgm", properties::pgm, pgm_seeds),
     ("png", properties::png, png_seeds),
     ("npy", properties::npy, npy_seeds),
     ("gridmap", properties::gridmap, gridmap_seeds),
     ("grid", properties::grid, grid_seeds),
+    ("room", properties::room, room_seeds),
 ];
 
 fn folder(target: &str) -> PathBuf {
@@ -158,5 +159,26 @@ fn grid_seeds() -> Vec<(&'static str, Vec<u8>)> {
         ("log_odds_near_unknown", NEAR_UNKNOWN.to_vec()),
         ("log_odds_near_ties", of(5, &doubles(&[NEAR_TIES, NEAR_TIES, NEAR_TIES].concat()))),
         ("bad", of(3, &doubles(&[0.25, f64::NAN, 2.0]))),
+    ]
+}
+
+fn room_seeds() -> Vec<(&'static str, Vec<u8>)> {
+    let of = |mode: u8, per_side: u8, numbers: [f64; 5]| {
+        let numbers = numbers.into_iter().flat_map(|x| match mode & 1 {
+            0 => x.to_le_bytes().to_vec(),
+            _ => (x as f32).to_le_bytes().to_vec(),
+        });
+        [mode, per_side].into_iter().chain(numbers).collect()
+    };
+    vec![
+        ("paper", of(0, 0, [2.0, 0.2, 0.16, 0.5, 0.5])),
+        ("paper_f32", of(1, 0, [2.0, 0.2, 0.16, 0.0, 0.0])),
+        ("averaged", of(0, 4, [2.0, 0.2, 0.64, 0.3, -7.75])),
+        ("far_and_sharp", of(0, 0, [1000.0, 0.001, 40.0, 1e-300, 0.25])),
+        ("near_and_blurred", of(1, 2, [0.001, 1000.0, 80.0, -0.5, 0.5])),
+        ("countable", of(2, 0, [0.7, 0.3, 0.9, 0.125, 1e9])),
+        ("countable_f32", of(3, 0, [3e-39, 0.3, 0.9, 0.125, 7.0])),
+        ("too_fine", of(0, 0, [2.0, 0.2, 1e-300, 0.5, 0.5])),
+        ("bad", of(0, 3, [2.0, -0.2, f64::NAN, f64::INFINITY, 0.5])),
     ]
 }

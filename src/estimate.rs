@@ -30,6 +30,23 @@ pub enum Status<T> {
     },
 }
 
+impl Status<f64> {
+    /// The same with the nearest floats of another format.
+    pub(crate) fn nearest<T: Real>(self) -> Status<T> {
+        match self {
+            Self::Converged => Status::Converged,
+            Self::EvaluationLimit => Status::EvaluationLimit,
+            Self::RoundOff => Status::RoundOff,
+            Self::Unresolved { lower, upper } => {
+                Status::Unresolved { lower: T::nearest(lower), upper: T::nearest(upper) }
+            }
+            Self::NotFinite { lower, upper } => {
+                Status::NotFinite { lower: T::nearest(lower), upper: T::nearest(upper) }
+            }
+        }
+    }
+}
+
 /// A value with the error it is believed to have: not proved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate<T> {

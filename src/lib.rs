@@ -67,6 +67,7 @@ pub mod cell;
 pub mod elementary;
 mod error;
 pub mod estimate;
+pub mod interval;
 pub mod limit;
 pub mod map;
 pub mod quadrature;
@@ -98,6 +99,8 @@ pub mod book {
     pub mod limit {}
     #[doc = include_str!("../docs/quadrature.md")]
     pub mod quadrature {}
+    #[doc = include_str!("../docs/integration.md")]
+    pub mod integration {}
     #[doc = include_str!("../docs/guarantees.md")]
     pub mod guarantees {}
 }

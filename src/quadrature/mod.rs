@@ -1,5 +1,4 @@
-//! Integrals of functions of one variable.
-//!
-//! [`adaptive`] estimates: any function of floats, an error that is believed.
+//! Integrals of functions of one variable: [`adaptive`], with an estimate of the error, and [`rigorous`], with a proof of it.
 
 pub mod adaptive;
+pub mod rigorous;

@@ -4,10 +4,10 @@ use crate::real::Real;
 
 /// A positive real number between `lo * 2^exponent` and `(lo + width) * 2^exponent`, ends included.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Enclosure {
-    pub(super) lo: u128,
-    pub(super) width: u128,
-    pub(super) exponent: i32,
+pub(crate) struct Enclosure {
+    pub(crate) lo: u128,
+    pub(crate) width: u128,
+    pub(crate) exponent: i32,
 }
 
 /// The number `m * 2^exponent` half-way between two neighbouring floats.

@@ -21,7 +21,7 @@ pub(super) const SERIES_ERROR: u128 = 1 << 55;
 
 /// `floor(a b / 2^128)`, exactly.
 #[inline]
-pub(super) fn mul_high(a: u128, b: u128) -> u128 {
+pub(crate) fn mul_high(a: u128, b: u128) -> u128 {
     const LOW: u128 = u64::MAX as u128;
     let (a1, a0, b1, b0) = (a >> 64, a & LOW, b >> 64, b & LOW);
     let middle = a1 * b0 + ((a0 * b0) >> 64);
@@ -126,7 +126,7 @@ pub(super) fn information_series_log_odds(m: u64, e: i32) -> (u128, i32) {
 
 /// `1 / w`, scale 126, for `w` in `[1, 2]` of scale 126; relative error below `2^-120`.
 #[inline]
-pub(super) fn reciprocal(w: u128) -> u128 {
+pub(crate) fn reciprocal(w: u128) -> u128 {
     // 62 good bits by one division, doubled by one step of Newton's iteration.
     let first = (1_u128 << 126) / (w >> 64);
     let residual = (1 << 125) - mul_high(w, first << 63) as i128;

@@ -16,16 +16,17 @@ mod distance;
 mod enclose;
 mod enclosure;
 mod exact;
+pub(crate) mod extended;
 mod fixed;
 mod gaussian;
 
 pub(crate) use distance::{Coordinate, distance, multiple};
-pub(crate) use enclosure::{round_integer, round_limbs};
-pub(crate) use fixed::{horner, shift_right};
+pub(crate) use enclosure::{Enclosure, round_integer, round_limbs};
+pub(crate) use fixed::{horner, mul_high, reciprocal, shift_right};
 pub(crate) use gaussian::gaussian;
 
 use crate::real::Real;
-use enclosure::{Enclosure, Midpoint, Rounded};
+use enclosure::{Midpoint, Rounded};
 
 /// `H` and `I` of a cell, each rounded only when it is asked for: rounding may need the comparison.
 pub(crate) enum Bits {
@@ -191,4 +192,4 @@ mod tests;
 /// The oracle of the tests of all `f32`, which takes any number.
 #[cfg(test)]
 #[path = "../../tests/single_precision/wide.rs"]
-mod wide;
+pub(crate) mod wide;

@@ -1,0 +1,268 @@
+//! Rectangles of the complex plane, [`Complex`]: how large a function is about a real interval, and that it is analytic there.
+//!
+//! An operation gives a rectangle that contains its result for any numbers of its arguments. It gives
+//! [`NOT_ANALYTIC`](Complex::NOT_ANALYTIC), and every later operation hands that on, unless the function is analytic at each of
+//! them and real where they are: with the principal branches, cut along the negative axis, `ln` and `√` away from the cut.
+//!
+//! Digits do not count here: magnitudes scale a remainder whose exponent does the work.
+
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+use super::Interval;
+use crate::scalar::Scalar;
+
+type Real = Interval<f64>;
+
+/// All complex numbers with real part in one interval and imaginary part in another.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Complex {
+    re: Real,
+    im: Real,
+    /// A rectangle whose exponential this is: its logarithm, exactly, and the same branch all along.
+    ///
+    /// `ln(e^z) = z` on the real axis, and so is its analytic continuation, also where the principal branch has left it.
+    logarithm: Option<(Real, Real)>,
+}
+
+const ZERO: Real = Interval::point(0.0);
+const ONE: Real = Interval::point(1.0);
+const PI: Real = Interval::between(core::f64::consts::PI, core::f64::consts::PI.next_up());
+
+impl Complex {
+    /// The value where a function is not known to be analytic.
+    pub(crate) const NOT_ANALYTIC: Self = Self { re: Real::EMPTY, im: Real::EMPTY, logarithm: None };
+
+    pub(crate) const fn new(re: Real, im: Real) -> Self {
+        Self { re, im, logarithm: None }
+    }
+
+    /// A bound on the magnitude of each number: finite only if the function is analytic on the whole rectangle.
+    pub(crate) fn bound(self) -> f64 {
+        if self.re.is_bounded() && self.im.is_bounded() {
+            (Real::point(self.re.magnitude()) + Real::point(self.im.magnitude())).upper()
+        } else {
+            f64::INFINITY
+        }
+    }
+
+    fn is_real(self) -> bool {
+        self.im == ZERO
+    }
+
+    /// Whether no number is 0 or negative.
+    fn avoids_cut(self) -> bool {
+        self.re.lower() > 0.0 || self.im.lower() > 0.0 || self.im.upper() < 0.0
+    }
+
+    /// `|z|^2`
+    fn square_magnitude(self) -> Real {
+        self.re.square() + self.im.square()
+    }
+
+    /// The argument, for a rectangle that avoids the cut.
+    fn argument(self) -> Real {
+        let half = Real::constant(0.5) * PI;
+        if self.re.lower() > 0.0 {
+            arctangent(self.im / self.re)
+        } else if self.im.lower() > 0.0 {
+            half - arctangent(self.re / self.im)
+        } else {
+            -half - arctangent(self.re / self.im)
+        }
+    }
+
+    /// The same or the opposite rectangle, whichever lies to the right.
+    fn to_the_right(self) -> Self {
+        if self.re.upper() < 0.0 { -self } else { self }
+    }
+}
+
+/// `1 - e^z = -z (1 + z/2 + r)`, which keeps its digits for small `z`: `|r| <= |z|^2 / 5` for `|z| <= 1/2`.
+fn one_minus_exponential(z: Complex) -> Complex {
+    let rest = (z.square_magnitude() * Real::constant(0.2)).upper();
+    let rest = Real::between(-rest, rest);
+    -z * (Complex::constant(1.0) + Complex::constant(0.5) * z + Complex::new(rest, rest))
+}
+
+/// Some function with each end of `x` taken to a lower and an upper bound, for an odd function that rises.
+fn odd(x: Real, bounds: impl Fn(f64) -> (f64, f64)) -> Real {
+    let end = |x: f64| {
+        let (lower, upper) = bounds(x.abs());
+        if x < 0.0 { (-upper, -lower) } else { (lower, upper) }
+    };
+    Real::between(end(x.lower()).0, end(x.upper()).1)
+}
+
+/// `v >= 0` widened by `2^-36` of it, more than the truncation and the roundings of the functions below; so that nothing
+/// underflows, tiny numbers are lumped together. All functions here are 0 at 0, exactly.
+fn about(v: f64) -> (f64, f64) {
+    const MARGIN: f64 = 1.0 / (1_u64 << 36) as f64;
+    const TINY: f64 = 1e-290;
+    if v == 0.0 {
+        (0.0, 0.0)
+    } else if v < TINY {
+        (0.0, 2.0 * TINY)
+    } else {
+        (v * (1.0 - MARGIN), v * (1.0 + MARGIN))
+    }
+}
+
+/// `sin x` for `|x| <= 1.57 < π/2`: its series up to `x^15`; the next term is below `2^-37` of the sum.
+fn sine(x: Real) -> Real {
+    odd(x, |x| {
+        let square = x * x;
+        about(x * (1..=7).rev().fold(1.0, |sum, k| 1.0 - sum * square / f64::from(2 * k * (2 * k + 1))))
+    })
+}
+
+/// `cos x` for `|x| <= 1.57`: `1 - cos x` by its series up to `x^16`; the next term is below `2^-40` of the sum.
+fn cosine(x: Real) -> Real {
+    let versine = |x: f64| {
+        let square = x * x;
+        about(
+            0.5 * square
+                * (2..=8).rev().fold(1.0, |sum, k| 1.0 - sum * square / f64::from(2 * k * (2 * k - 1))),
+        )
+    };
+    let (far, near) = (x.magnitude(), x.lower().max(-x.upper()).max(0.0));
+    ONE - Real::between(versine(near).0, versine(far).1)
+}
+
+/// `arctan x`, between the fourth and the fifth convergent of Lambert's continued fraction, which alternate about it.
+fn arctangent(x: Real) -> Real {
+    odd(x, |x| {
+        if x > 1.0 {
+            let (lower, upper) = convergents(1.0 / x);
+            // The quotient's rounding is in the margins.
+            let half = Real::constant(0.5) * PI;
+            return ((half - Real::point(upper)).lower(), (half - Real::point(lower)).upper());
+        }
+        convergents(x)
+    })
+}
+
+/// The fourth and the fifth convergent at `x` in `[0, 1]`, each moved outward by the margin.
+fn convergents(x: f64) -> (f64, f64) {
+    let square = x * x;
+    let fourth = x * (105.0 + 55.0 * square) / (105.0 + square * (90.0 + 9.0 * square));
+    let fifth = x * (945.0 + square * (735.0 + 64.0 * square)) / (945.0 + square * (1050.0 + 225.0 * square));
+    (about(fourth).0, about(fifth).1)
+}
+
+impl Neg for Complex {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self::new(-self.re, -self.im)
+    }
+}
+
+impl Add for Complex {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self::new(self.re + other.re, self.im + other.im)
+    }
+}
+
+impl Sub for Complex {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        if self.is_real()
+            && self.re == ONE
+            && let Some((re, im)) = other.logarithm
+            && re.magnitude().max(im.magnitude()) <= 1.0 / 1024.0
+        {
+            return one_minus_exponential(Self::new(re, im));
+        }
+        Self::new(self.re - other.re, self.im - other.im)
+    }
+}
+
+impl Mul for Complex {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        if self.is_real() {
+            return Self::new(self.re * other.re, self.re * other.im);
+        }
+        if other.is_real() {
+            return other * self;
+        }
+        Self::new(self.re * other.re - self.im * other.im, self.re * other.im + self.im * other.re)
+    }
+}
+
+impl Div for Complex {
+    type Output = Self;
+    fn div(self, other: Self) -> Self {
+        if other.is_real() && !other.re.contains(0.0) {
+            return Self::new(self.re / other.re, self.im / other.re);
+        }
+        let square = other.square_magnitude();
+        if square.is_empty() || square.lower() <= 0.0 {
+            return Self::NOT_ANALYTIC;
+        }
+        let product = self * Self::new(other.re, -other.im);
+        Self::new(product.re / square, product.im / square)
+    }
+}
+
+impl Scalar for Complex {
+    fn constant(x: f64) -> Self {
+        if x.is_finite() { Self::new(Real::point(x), ZERO) } else { Self::NOT_ANALYTIC }
+    }
+
+    fn ln_2() -> Self {
+        Self::new(Real::ln_2(), ZERO)
+    }
+
+    /// `e^re (cos im + i sin im)`
+    fn exp(self) -> Self {
+        let magnitude = self.re.exp();
+        let (cosine, sine) = if self.is_real() {
+            (ONE, ZERO)
+        } else if self.im.magnitude() <= 1.57 {
+            (cosine(self.im), sine(self.im))
+        } else {
+            (Real::between(-1.0, 1.0), Real::between(-1.0, 1.0))
+        };
+        let logarithm = Some((self.re, self.im));
+        Self { re: magnitude * cosine, im: magnitude * sine, logarithm }
+    }
+
+    fn ln(self) -> Self {
+        if let Some((re, im)) = self.logarithm {
+            return Self::new(re, im);
+        }
+        if !self.avoids_cut() {
+            return Self::NOT_ANALYTIC;
+        }
+        if self.is_real() {
+            return Self::new(self.re.ln(), ZERO);
+        }
+        Self::new(Real::constant(0.5) * self.square_magnitude().ln(), self.argument())
+    }
+
+    fn sqrt(self) -> Self {
+        (Self::constant(0.5) * self.ln()).exp()
+    }
+
+    /// Eq. 1 with `ln p` and `ln(1 - p)`, both away from the cut.
+    fn entropy(self) -> Self {
+        let rest = Self::constant(1.0) - self;
+        -(self * self.ln() + rest * rest.ln()) / Self::ln_2()
+    }
+
+    /// `(ln(1 + x) + l x / (1 + x)) / ln 2` with `x = e^-l`: analytic where `|im l| < π`, and where `re l > 0`, for there
+    /// `|x| < 1`. It is even: so also where `re l < 0`.
+    fn entropy_from_log_odds(self) -> Self {
+        let l = self.to_the_right();
+        if !(l.re.lower() > 0.0 || l.im.magnitude() < PI.lower()) {
+            return Self::NOT_ANALYTIC;
+        }
+        let x = (-l).exp();
+        let sum = Self::constant(1.0) + x;
+        (sum.ln() + l * x / sum) / Self::ln_2()
+    }
+}
+
+#[cfg(test)]
+mod tests;

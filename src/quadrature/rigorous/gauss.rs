@@ -1,0 +1,136 @@
+//! One panel by a Gauss-Legendre rule: `int_-1^1 g = sum w_i g(x_i) + R_n`, with a bound on `R_n`.
+//!
+//! If `g` is analytic on the ellipse with foci ±1 and half axes that add to `ρ > 1`, and `|g| <= M` there, then
+//! `|R_n| <= (64/15) M ρ^-2n / (1 - ρ^-2)` for `n >= 2` (derived in [`integration`](crate::book::integration)).
+
+use super::nodes::RULES;
+use crate::interval::{Complex, Interval, Wide};
+use crate::scalar::{Integrand, Scalar};
+
+/// The ellipses that are tried, by their `ρ`.
+const ELLIPSES: [f64; 4] = [5.0, 3.0, 2.0, 1.5];
+
+/// The upper half of an ellipse lies in five rectangles: from one fraction of the half axis to the other, as high as a third
+/// fraction of the other half axis, `√(1 - x^2)` or a little more at the end nearer to the middle. Outer ones first: singularities
+/// lie there.
+const RECTANGLES: [(f64, f64, f64); 5] =
+    [(-1.0, -0.8, 0.601), (0.8, 1.0, 0.601), (-0.8, -0.35, 0.937), (0.35, 0.8, 0.937), (-0.35, 0.35, 1.0)];
+
+/// The nodes and weights of one of the rules, as floats.
+pub(super) fn floats() -> impl Iterator<Item = (f64, f64)> {
+    let float = |value: u128| (value >> 64) as f64 / (1_u64 << 63) as f64;
+    RULES[6].iter().map(move |&(node, weight)| (float(node), float(weight)))
+}
+
+/// A rule, and a bound on what it leaves out on one panel.
+pub(super) struct Choice {
+    rule: &'static [(u128, u128)],
+    remainder: f64,
+}
+
+/// Which ellipse fitted last: neighbours are alike.
+pub(super) struct Chooser {
+    last: usize,
+    /// Whether the last panel had none, and so perhaps its half has none.
+    none: bool,
+}
+
+impl Chooser {
+    pub(super) fn new() -> Self {
+        Self { last: 0, none: false }
+    }
+
+    /// The shortest rule whose remainder between `a` and `b` is at most `allowed`.
+    pub(super) fn choose(
+        &mut self,
+        f: &impl Integrand,
+        a: f64,
+        b: f64,
+        allowed: f64,
+        evaluations: &mut u64,
+    ) -> Option<Choice> {
+        let ends = (Interval::point(a), Interval::point(b));
+        let half = Interval::constant(0.5);
+        let (centre, radius) = (half * ends.0 + half * ends.1, half * ends.1 - half * ends.0);
+        let mut largest = |ellipse: f64, rectangles: &[(f64, f64, f64)]| {
+            let (rho, inverse) =
+                (Interval::point(ellipse), Interval::constant(1.0) / Interval::point(ellipse));
+            let (long, short) = (half * (rho + inverse) * radius, half * (rho - inverse) * radius);
+            let mut largest = 0.0_f64;
+            for &(from, to, height) in rectangles {
+                let end = |fraction| centre + Interval::<f64>::constant(fraction) * long;
+                let height = short * Interval::constant(height);
+                let rectangle = Complex::new(end(from).hull(end(to)), Interval::between(0.0, height.upper()));
+                largest = largest.max(f.evaluate(rectangle).bound());
+                *evaluations += 1;
+                if largest.is_infinite() {
+                    break;
+                }
+            }
+            largest
+        };
+        if self.none && largest(ELLIPSES[ELLIPSES.len() - 1], &RECTANGLES[..2]).is_infinite() {
+            return None;
+        }
+        for (index, &ellipse) in ELLIPSES.iter().enumerate().skip(self.last.saturating_sub(1)) {
+            let bound = largest(ellipse, &RECTANGLES);
+            if bound.is_finite()
+                && let Some(choice) = rule(ellipse, bound, radius, allowed)
+            {
+                self.last = index;
+                self.none = false;
+                return Some(choice);
+            }
+        }
+        self.none = true;
+        None
+    }
+}
+
+/// The shortest rule for an integrand that is at most `bound` on an ellipse.
+fn rule(ellipse: f64, bound: f64, radius: Interval<f64>, allowed: f64) -> Option<Choice> {
+    let inverse = Interval::constant(1.0) / Interval::point(ellipse);
+    let square = inverse * inverse;
+    let (one, ratio) = (Interval::constant(1.0), square * square);
+    let scale = Interval::constant(64.0) / Interval::constant(15.0) * radius / (one - square);
+    let mut remainder = scale * Interval::point(bound) * ratio;
+    let mut nodes = 2;
+    for rule in RULES {
+        while nodes < 2 * rule.len() {
+            remainder = remainder * ratio;
+            nodes += 2;
+        }
+        if remainder.upper() <= allowed {
+            return Some(Choice { rule, remainder: remainder.upper() });
+        }
+    }
+    None
+}
+
+/// An enclosure of the integral between `a` and `b`.
+pub(super) fn integrate(
+    f: &impl Integrand,
+    a: f64,
+    b: f64,
+    choice: &Choice,
+    evaluations: &mut u64,
+) -> Interval<Wide> {
+    type Value = Interval<Wide>;
+    let half = Value::constant(0.5);
+    let (a, b) = (Value::constant(a), Value::constant(b));
+    let (centre, radius) = (half * (a + b), half * (b - a));
+    let mut sum = Value::constant(0.0);
+    for &(node, weight) in choice.rule {
+        let offset = radius * floored(node);
+        let pair = f.evaluate(centre + offset) + f.evaluate(centre - offset);
+        sum = sum + floored(weight) * pair;
+    }
+    let remainder = Value::constant(choice.remainder);
+    *evaluations += 2 * choice.rule.len() as u64;
+    radius * sum + (-remainder).hull(remainder)
+}
+
+/// A number of which `value` is the floor, scale 127.
+fn floored(value: u128) -> Interval<Wide> {
+    Interval::between(Wide::from_integer(value, -127), Wide::from_integer(value + 1, -127))
+}

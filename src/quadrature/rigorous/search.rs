@@ -1,0 +1,177 @@
+//! The search for panels: from the left, each panel is enclosed by a rule, or by the range of the integrand, or cut in half.
+
+use alloc::vec;
+
+use super::Integral;
+use super::gauss::{self, Chooser};
+use crate::estimate::Status;
+use crate::interval::{Endpoint, Interval, Toward, Wide};
+use crate::scalar::{Integrand, Scalar};
+
+/// An integral under way.
+pub(super) struct Search<'a, F> {
+    pub(super) f: &'a F,
+    pub(super) from: f64,
+    pub(super) to: f64,
+    pub(super) evaluations: u64,
+    pub(super) limit: u64,
+}
+
+/// What the panels add up to.
+struct Sum {
+    value: Interval<Wide>,
+    /// The integral of the magnitude, about.
+    size: f64,
+    status: Status<f64>,
+}
+
+/// What becomes of a panel.
+enum Panel {
+    /// Its integral; the status tells why it is no narrower.
+    Enclosed { value: Interval<Wide>, status: Status<f64> },
+    /// Its halves are next.
+    Cut(f64),
+    /// Nothing is known of its integral.
+    Failed(Status<f64>),
+}
+
+/// More evaluations than a panel takes: all rectangles, the longest rule, and a few ranges.
+const MOST_EVALUATIONS: u64 = 72;
+/// A panel may take this share of the width that is left.
+const SHARE: f64 = 1.0 / 32.0;
+/// A panel narrower than this share of the whole is not cut any more.
+const NARROWEST: f64 = 1.0 / (1_u128 << 120) as f64;
+/// What sums in 128 bits can hold, relative to the integral of the magnitude: above their roundings.
+const ROUND_OFF: f64 = 1.0 / (1_u128 << 66) as f64;
+/// An estimate this much below the crudest bound is not trusted.
+const DOUBT: f64 = 1.0 / (1_u64 << 20) as f64;
+/// How often the sum is made at most: again, if the integral turns out smaller than was estimated.
+const PASSES: usize = 3;
+
+impl<F: Integrand> Search<'_, F> {
+    /// The integral, with a width of at most `absolute` or `relative` times its magnitude, if that can be.
+    pub(super) fn run(&mut self, absolute: f64, relative: f64) -> Integral {
+        let wanted = |magnitude: f64| absolute.max(relative * magnitude);
+        let mut target = wanted(self.estimate()) / 4.0;
+        let mut value = Interval::WHOLE;
+        let mut status = Status::RoundOff;
+        for _ in 0..PASSES {
+            let sum = self.pass(target);
+            // Each contains the integral.
+            value = value.intersection(sum.value);
+            let wanted = wanted(smallest_magnitude(value));
+            status = match sum.status {
+                _ if width(value) <= wanted => Status::Converged,
+                Status::Converged => Status::RoundOff,
+                other => other,
+            };
+            // Too wide, though every panel is as narrow as was asked for: ask for more, if there is more.
+            let next = wanted.max(ROUND_OFF * sum.size) / 4.0;
+            if status != Status::RoundOff || next >= target {
+                break;
+            }
+            target = next;
+        }
+        Integral { value, status, evaluations: self.evaluations }
+    }
+
+    /// About the magnitude of the integral: a tolerance to begin with.
+    fn estimate(&mut self) -> f64 {
+        let (centre, radius) = (0.5 * self.from + 0.5 * self.to, 0.5 * self.to - 0.5 * self.from);
+        let mut sum = 0.0;
+        for (node, weight) in gauss::floats() {
+            for x in [centre - radius * node, centre + radius * node] {
+                let value: f64 = self.f.evaluate(x);
+                sum += if value.is_finite() { weight * value } else { 0.0 };
+                self.evaluations += 1;
+            }
+        }
+        let range: Interval<f64> = self.range(self.from, self.to);
+        let crude = if range.is_bounded() { 2.0 * range.magnitude() } else { 0.0 };
+        radius * sum.abs().max(crude * DOUBT)
+    }
+
+    /// The sum over panels, with a width of about `target`.
+    fn pass(&mut self, target: f64) -> Sum {
+        let mut left = target;
+        let mut sum = Sum { value: Interval::constant(0.0), size: 0.0, status: Status::Converged };
+        let mut chooser = Chooser::new();
+        let mut panels = vec![(self.from, self.to)];
+        while let Some((a, b)) = panels.pop() {
+            let limited = self.evaluations + panels.len() as u64 + MOST_EVALUATIONS > self.limit;
+            match self.panel(&mut chooser, a, b, left * SHARE, limited) {
+                Panel::Enclosed { value, status } => {
+                    left -= width(value).min(left * SHARE);
+                    sum.value = sum.value + value;
+                    sum.size += value.magnitude().to_real::<f64>(Toward::Up);
+                    if status != Status::Converged {
+                        sum.status = status;
+                    }
+                }
+                Panel::Cut(middle) => panels.extend([(middle, b), (a, middle)]),
+                Panel::Failed(status) => return Sum { value: Interval::WHOLE, size: f64::INFINITY, status },
+            }
+        }
+        sum
+    }
+
+    /// What to do with the panel from `a` to `b`, which may add `allowed` to the width.
+    fn panel(&mut self, chooser: &mut Chooser, a: f64, b: f64, allowed: f64, limited: bool) -> Panel {
+        let length = Interval::constant(b) - Interval::constant(a);
+        let range: Interval<f64> = self.range(a, b);
+        if range.is_empty() {
+            return Panel::Failed(Status::NotFinite { lower: a, upper: b });
+        }
+        let strip = length * range.into();
+        if width(strip) <= allowed || limited {
+            let status = if width(strip) <= allowed { Status::Converged } else { Status::EvaluationLimit };
+            return Panel::Enclosed { value: strip, status };
+        }
+        if let Some(choice) = chooser.choose(self.f, a, b, allowed / 2.0, &mut self.evaluations) {
+            let value = gauss::integrate(self.f, a, b, &choice, &mut self.evaluations);
+            return Panel::Enclosed { value, status: Status::Converged };
+        }
+        let middle = 0.5 * a + 0.5 * b;
+        let can_be_cut = a < middle && middle < b && b - a > NARROWEST * self.to - NARROWEST * self.from;
+        if can_be_cut && !self.is_noise(range, middle) {
+            return Panel::Cut(middle);
+        }
+        let range: Interval<Wide> = self.range(a, b);
+        let strip = strip.intersection(length * range);
+        if can_be_cut && width(strip) > allowed && !self.is_noise(range, middle) {
+            return Panel::Cut(middle);
+        }
+        let unresolved = Status::Unresolved { lower: a, upper: b };
+        if !strip.is_bounded() {
+            return Panel::Failed(unresolved);
+        }
+        Panel::Enclosed { value: strip, status: if can_be_cut { Status::Converged } else { unresolved } }
+    }
+
+    /// The values of the integrand between `a` and `b`.
+    fn range<T: Endpoint>(&mut self, a: f64, b: f64) -> Interval<T> {
+        self.evaluations += 1;
+        self.f.evaluate(Interval::constant(a).hull(Interval::constant(b)))
+    }
+
+    /// Whether roundings at one point make half of a range: then cutting does not help.
+    fn is_noise<T: Endpoint>(&mut self, range: Interval<T>, x: f64) -> bool {
+        if !range.is_bounded() {
+            return false;
+        }
+        let point: Interval<T> = self.range(x, x);
+        let width = point.width();
+        width.add(width, Toward::Up) >= range.width()
+    }
+}
+
+/// The width, rounded up.
+fn width(x: Interval<Wide>) -> f64 {
+    x.width().to_real(Toward::Up)
+}
+
+/// The smallest magnitude, rounded down.
+fn smallest_magnitude(x: Interval<Wide>) -> f64 {
+    let [lower, upper] = [x.lower(), -x.upper()].map(|end| end.to_real::<f64>(Toward::Down));
+    lower.max(upper).max(0.0)
+}

@@ -1,0 +1,1 @@
+//! Rigorous integration: against integrals that are known in closed form, by their relations, and where it must give up.

@@ -93,6 +93,8 @@ pub mod book {
     pub mod grids {}
     #[doc = include_str!("../docs/convergence.md")]
     pub mod convergence {}
+    #[doc = include_str!("../docs/erratum.md")]
+    pub mod erratum {}
     #[doc = include_str!("../docs/rounding.md")]
     pub mod rounding {}
     #[doc = include_str!("../docs/limit.md")]

@@ -12,11 +12,13 @@
 //! | [`output`] | numbers, tables, JSON and CSV, and where they go |
 //! | [`measures`] | what is measured of a map |
 //! | [`sweep`] | the measures against the size of cells |
-//! | [`plots`] | pictures of maps and sweeps |
+//! | [`convergence`] | grids of a circular room against their limit |
+//! | [`plots`] | pictures of maps, sweeps and convergence |
 //! | [`commands`] | the arguments, and what they ask for |
 
 mod cell_cache;
 pub mod commands;
+pub mod convergence;
 mod failure;
 pub mod hex_float;
 pub mod maps;

@@ -9,20 +9,23 @@ use crate::sensor::{GaussianSensor, SteppedSensor};
 
 /// A stretch of `t` from `start` to `start + length`, over which the entropy is smooth but perhaps at its start.
 ///
-/// A negative length runs towards smaller `t`. The integrals grade towards the start: a singularity, or a bump as narrow as
-/// `10^-12` of the length, is seen there, and only there.
+/// A negative length runs towards smaller `t`. A singularity, or a bump much narrower than the piece, may lie at the start, and
+/// only there: the adaptive integral begins with panels that shrink towards it.
 #[derive(Clone, Debug)]
 pub struct Piece<S> {
     /// Where it starts.
     pub start: S,
     /// How far it reaches, with its sign.
     pub length: S,
+    /// How many panels the adaptive integral begins with, each a quarter of the one before: enough for the smallest to be no wider
+    /// than what is to be seen at the start. At least 1.
+    pub panels: usize,
 }
 
 impl<S: Scalar> Piece<S> {
-    /// The piece between two constants.
-    pub fn new(start: f64, length: f64) -> Self {
-        Self { start: S::constant(start), length: S::constant(length) }
+    /// The piece of the given start, length and number of panels.
+    pub fn new(start: S, length: S, panels: usize) -> Self {
+        Self { start, length, panels }
     }
 }
 
@@ -65,6 +68,9 @@ pub(super) fn exponent<S: Scalar>(t: S) -> S {
 /// Beyond this many `σ` the Gaussian is below `2^-1154`: nothing there but a tail.
 pub(super) const TAIL: f64 = 40.0;
 
+/// The panels about `z`, where the entropy is `t^2 ln |t|`.
+const PANELS: usize = 5;
+
 /// The near side from `z` down to the sensor, its tail apart, and the far side up to the edge.
 impl<T: Real> RadialModel for GaussianSensor<T> {
     type Float = T;
@@ -78,12 +84,12 @@ impl<T: Real> RadialModel for GaussianSensor<T> {
     }
 
     fn pieces<S: Scalar>(&self) -> Vec<Piece<S>> {
-        let far = Piece { start: S::constant(0.0), length: half_width() };
+        let far = Piece::new(S::constant(0.0), half_width(), PANELS);
         if ratio::<T, f64>(self) > TAIL {
-            let tail = Piece { start: S::constant(-TAIL), length: S::constant(TAIL) - ratio(self) };
-            vec![far, Piece::new(0.0, -TAIL), tail]
+            let near = Piece::new(S::constant(0.0), S::constant(-TAIL), PANELS + 1);
+            vec![far, near, Piece::new(S::constant(-TAIL), S::constant(TAIL) - ratio(self), 1)]
         } else {
-            vec![far, Piece { start: S::constant(0.0), length: -ratio::<T, S>(self) }]
+            vec![far, Piece::new(S::constant(0.0), -ratio::<T, S>(self), PANELS + 1)]
         }
     }
 
@@ -105,9 +111,9 @@ impl<T: Real> RadialModel for SteppedSensor<T> {
     }
 
     fn pieces<S: Scalar>(&self) -> Vec<Piece<S>> {
-        let stretch = |[from, to]: [T; 2]| Piece {
-            start: S::constant(from.widen()),
-            length: S::constant(to.widen()) - S::constant(from.widen()),
+        let stretch = |[from, to]: [T; 2]| {
+            let start = S::constant(from.widen());
+            Piece::new(start.clone(), S::constant(to.widen()) - start, 1)
         };
         self.observed().map(|(ends, _)| stretch(ends)).collect()
     }

@@ -65,8 +65,10 @@ impl<T: Real> RadialModel for RepeatedScans<T> {
     }
 
     fn pieces<S: Scalar>(&self) -> Vec<Piece<S>> {
+        // The bumps are as narrow as 1/n.
+        let panels = 4 + self.scans.ilog2() as usize / 2;
         let half = || S::constant(0.5) * half_width();
-        let piece = |start, length| Piece { start, length };
+        let piece = |start, length| Piece::new(start, length, panels);
         let mut pieces = vec![piece(S::constant(0.0), half()), piece(half_width(), -half())];
         let distance: f64 = ratio(&self.sensor);
         // With room for both roundings: a bump that ends before the sensor would have a length of the wrong sign.

@@ -29,3 +29,20 @@ pub(crate) fn mirrorable() -> impl Strategy<Value = f64> {
 pub(crate) fn cell(p: f64) -> Cell<f64> {
     Cell::from_occupancy(p).expect("an occupancy in [0, 1]")
 }
+
+/// Xorshift, for runs of a length that the caller chooses.
+pub(crate) struct Random(u64);
+
+impl Random {
+    pub(crate) fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    /// A number in `[0, 1)`.
+    pub(crate) fn uniform(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as f64 * power(-53)
+    }
+}

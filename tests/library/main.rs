@@ -8,6 +8,7 @@ mod digest;
 mod elementary;
 mod guarantees;
 mod interval;
+mod limit;
 mod map;
 mod rigorous;
 mod room;

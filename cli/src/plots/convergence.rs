@@ -121,7 +121,11 @@ impl Drawing for ConvergencePlot<'_> {
             let limit = ends.map(|x| (x, series.limit));
             chart
                 .draw_series(DashedLineSeries::new(limit, 9, 6, colour.stroke_width(2)))?
-                .label(format!("limit of {} grids, with the proved band: {:.6}", series.kind.name(), series.limit))
+                .label(format!(
+                    "limit of {} grids, with the proved band: {:.6}",
+                    series.kind.adjective(),
+                    series.limit
+                ))
                 .legend(move |at| {
                     EmptyElement::at(at)
                         + Rectangle::new([(0, -6), (20, 6)], colour.mix(0.12).filled())
@@ -133,7 +137,7 @@ impl Drawing for ConvergencePlot<'_> {
             points.sort_by(|a, b| a.0.total_cmp(&b.0));
             chart
                 .draw_series(LineSeries::new(points.iter().copied(), colour.stroke_width(2)))?
-                .label(format!("{} grid", series.kind.name()))
+                .label(format!("{} grid", series.kind.adjective()))
                 .legend(move |at| {
                     EmptyElement::at(at)
                         + PathElement::new([(0, 0), (20, 0)], colour.stroke_width(2))

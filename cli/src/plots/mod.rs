@@ -4,10 +4,12 @@
 mod axis;
 mod bitmap;
 mod canvas;
+mod convergence;
 mod heat_map;
 mod scale;
 mod sweep;
 
+pub use convergence::ConvergencePlot;
 pub use heat_map::HeatMap;
 pub use sweep::SweepPlot;
 

@@ -49,10 +49,10 @@ use stretch::Stretch;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GaussKronrod<T> {
-    rule: Rule,
-    absolute: T,
-    relative: T,
-    limit: u64,
+    pub(crate) rule: Rule,
+    pub(crate) absolute: T,
+    pub(crate) relative: T,
+    pub(crate) limit: u64,
 }
 
 impl<T: Real> Default for GaussKronrod<T> {

@@ -115,7 +115,7 @@ fn the_bands_are_coefficients_of_the_legendre_series() {
     let rounding = |k: u32| 6.0 * 4.0 * f64::from(3 * k * (2 * k + 1)) * f64::EPSILON;
     for rule in Rule::ALL {
         let n = (rule.evaluations() as u32 - 1) / 2;
-        let high = (3 * n + 1) / 2;
+        let high = (3 * n).div_ceil(2);
         for k in 1..=high {
             let reading = rule.apply(&mut |x| legendre(k, x / 3.0), STRETCH);
             let rounding = rounding(k);

@@ -40,9 +40,9 @@ use search::Search;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rigorous<T> {
-    absolute: T,
-    relative: T,
-    limit: u64,
+    pub(crate) absolute: T,
+    pub(crate) relative: T,
+    pub(crate) limit: u64,
 }
 
 /// The finest relative tolerance, a 64th of the distance from 1 to the next float: then rounding to `T` makes the width.
@@ -157,6 +157,10 @@ impl<T: Real> Rigorous<T> {
 fn split(f: &impl Integrand, x: Interval<Wide>) -> (f64, Interval<Wide>) {
     let near = x.lower().to_real::<f64>(Toward::Down);
     let start = Interval::constant(near);
+    if x == start {
+        // No sliver; and the integrand need not be defined at a single point.
+        return (near, Interval::constant(0.0));
+    }
     (near, (x - start) * f.evaluate(start.hull(x)))
 }
 

@@ -25,7 +25,7 @@ fn legendre(n: u32, x: &BigInt) -> BigInt {
     let (mut before, mut value) = (BigInt::from(1), x.clone());
     for k in 2..=n {
         // Scaled by 2^(127 k) k!, a step back brings (k - 1) 2^254.
-        let next = (2 * k - 1) * x * &value - (((k - 1) * (k - 1)) * before << 254_u32);
+        let next = (2 * k - 1) * x * &value - ((((k - 1) * (k - 1)) * before) << 254_u32);
         (before, value) = (value, next);
     }
     value

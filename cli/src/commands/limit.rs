@@ -1,0 +1,282 @@
+//! `meaninfo limit`: what the mean information of one scan of a circular room tends to as cells shrink.
+
+use super::Status;
+use super::metres::positive;
+use crate::failure::Failure;
+use crate::output::{Files, Number, Record, Report, Value, Writing, table};
+use clap::{Args, ValueEnum};
+use mean_information::estimate::{Enclosure, Estimate};
+use mean_information::limit::{self, RadialModel, RepeatedScans};
+use mean_information::quadrature::adaptive::GaussKronrod;
+use mean_information::quadrature::rigorous::Rigorous;
+use mean_information::sensor::GaussianSensor;
+use mean_information::{Error, Real};
+use std::num::NonZeroU32;
+use std::str::FromStr;
+
+/// The arguments of `meaninfo limit`.
+#[derive(Args, Debug)]
+pub struct Arguments {
+    /// The range that the sensor reads, in metres.
+    #[arg(long, value_name = "Z")]
+    range: String,
+    /// The standard deviation of the sensor, in metres.
+    #[arg(long, value_name = "S")]
+    sigma: String,
+    /// Which grids the limit belongs to.
+    #[arg(long, value_enum, default_value_t)]
+    weight: Weight,
+    /// How it is computed.
+    #[arg(long, value_enum, default_value_t)]
+    method: Method,
+    /// The type of floats it is computed in; range and sigma are rounded to it.
+    #[arg(long, value_enum, default_value_t)]
+    float: Format,
+    /// How many consistent scans are fused; more than one needs the method adaptive or rigorous.
+    #[arg(long, value_name = "N", default_value = "1")]
+    scans: NonZeroU32,
+    /// The wanted error relative to the deficit, 1 less the limit, for the methods adaptive and rigorous.
+    #[arg(long, value_name = "T")]
+    tolerance: Option<String>,
+    /// How often these methods may evaluate the integrand.
+    #[arg(long, value_name = "N", default_value = "100000")]
+    evaluations: u64,
+    #[command(flatten)]
+    writing: Writing,
+}
+
+/// Which grids the limit belongs to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum Weight {
+    /// Polar maps, cells of equal width and angle: the report's Eq. 7.
+    #[default]
+    Radial,
+    /// Cartesian grids, cells of equal area.
+    Area,
+}
+
+/// How a limit is computed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum Method {
+    /// From certified polynomials, with a proved error.
+    #[default]
+    ClosedForm,
+    /// By Gauss-Kronrod quadrature, with an estimated error.
+    Adaptive,
+    /// By interval arithmetic: an enclosure.
+    Rigorous,
+}
+
+/// A format of floats.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum Format {
+    F32,
+    #[default]
+    F64,
+}
+
+impl Arguments {
+    pub(super) fn run(&self) -> Result<Status, Failure> {
+        let limit = match self.float {
+            Format::F32 => self.limit::<f32>(),
+            Format::F64 => self.limit::<f64>(),
+        }?;
+        self.writing.write(&limit, Files::new())?;
+        Ok(if limit.status == CONVERGED { Status::Done } else { Status::CheckFailed })
+    }
+
+    fn limit<T: Real + FromStr>(&self) -> Result<Limit, Failure> {
+        let given = |name: &str, text: &str| {
+            positive::<T>(text).map_err(|what| Failure::Usage(format!("--{name} {text}: {what}")))
+        };
+        let refused = |error: Error| Failure::Usage(error.to_string());
+        let (range, sigma) = (given("range", &self.range)?, given("sigma", &self.sigma)?);
+        let tolerance = self.tolerance.as_ref().map(|text| given("tolerance", text)).transpose()?;
+        let sensor = GaussianSensor::new(range, sigma).map_err(refused)?;
+        let one = self.scans == NonZeroU32::MIN;
+        let result = match self.method {
+            Method::ClosedForm if one && tolerance.is_none() => {
+                Computed::closed_form(limit::closed_form(&sensor, self.weight.into()))
+            }
+            Method::ClosedForm if one => {
+                return Err(Failure::Usage("--tolerance: the closed form has an error of its own".to_owned()));
+            }
+            Method::ClosedForm => {
+                let methods = "--scans: there is no closed form for several scans; add --method adaptive or rigorous";
+                return Err(Failure::Usage(methods.to_owned()));
+            }
+            _ if one => self.integral(&sensor, tolerance).map_err(refused)?,
+            _ => {
+                let scans = RepeatedScans::new(sensor, self.scans.get()).map_err(refused)?;
+                self.integral(&scans, tolerance).map_err(refused)?
+            }
+        };
+        Ok(Limit {
+            range: Number::new(range),
+            sigma: Number::new(sigma),
+            weight: self.weight,
+            method: self.method,
+            format: T::FORMAT,
+            scans: self.scans.get(),
+            value: Number::new(result.value),
+            ends: [result.lower, result.upper].map(Number::new),
+            status: result.status,
+            evaluations: result.evaluations,
+        })
+    }
+
+    fn integral<M: RadialModel>(
+        &self,
+        model: &M,
+        tolerance: Option<M::Float>,
+    ) -> Result<Computed<M::Float>, Error> {
+        let weight = self.weight.into();
+        if self.method == Method::Rigorous {
+            let rules = tolerance.map_or(Ok(Rigorous::default()), |relative| Rigorous::new(M::Float::zero(), relative))?;
+            return limit::rigorous(model, weight, &rules.with_limit(self.evaluations)?).map(Computed::from);
+        }
+        let rules = GaussKronrod::new().limit(self.evaluations);
+        let rules = tolerance.map_or(rules, |relative| rules.relative(relative));
+        limit::adaptive(model, weight, &rules).map(Computed::from)
+    }
+}
+
+impl From<Weight> for limit::Weight {
+    fn from(weight: Weight) -> Self {
+        match weight {
+            Weight::Radial => Self::Radial,
+            Weight::Area => Self::Area,
+        }
+    }
+}
+
+/// A limit as any of the methods gives it.
+struct Computed<T> {
+    value: T,
+    lower: T,
+    upper: T,
+    status: &'static str,
+    evaluations: u64,
+}
+
+const CONVERGED: &str = "converged";
+
+impl<T: Real> Computed<T> {
+    /// The closed form is wrong by less than 1 ulp (proved), so its neighbours enclose the limit.
+    fn closed_form(value: T) -> Self {
+        let (m, e) = value.parts();
+        let (lower, upper) = (T::from_parts(m - 1, e), T::from_parts(m + 1, e).min(T::one()));
+        Self { value, lower, upper, status: CONVERGED, evaluations: 0 }
+    }
+}
+
+impl<T: Real> From<Estimate<T>> for Computed<T> {
+    fn from(estimate: Estimate<T>) -> Self {
+        let Estimate { value, error, status, evaluations } = estimate;
+        let (lower, upper) = ((value - error).max(T::zero()), (value + error).min(T::one()));
+        Self { value, lower, upper, status: name(status), evaluations }
+    }
+}
+
+impl<T: Real> From<Enclosure<T>> for Computed<T> {
+    fn from(enclosure: Enclosure<T>) -> Self {
+        let Enclosure { lower, upper, status, evaluations } = enclosure;
+        Self { value: lower + (upper - lower) * T::HALF, lower, upper, status: name(status), evaluations }
+    }
+}
+
+fn name<T>(status: mean_information::estimate::Status<T>) -> &'static str {
+    use mean_information::estimate::Status;
+    match status {
+        Status::Converged => CONVERGED,
+        Status::EvaluationLimit => "evaluation-limit",
+        Status::RoundOff => "round-off",
+        Status::Unresolved { .. } => "unresolved",
+        Status::NotFinite { .. } => "not-finite",
+        _ => "not-converged",
+    }
+}
+
+/// A limit, and all that it belongs to.
+struct Limit {
+    range: Number,
+    sigma: Number,
+    weight: Weight,
+    method: Method,
+    format: &'static str,
+    scans: u32,
+    value: Number,
+    ends: [Number; 2],
+    status: &'static str,
+    evaluations: u64,
+}
+
+impl Limit {
+    fn weight(&self) -> &'static str {
+        match self.weight {
+            Weight::Radial => "radial",
+            Weight::Area => "area",
+        }
+    }
+
+    fn method(&self) -> &'static str {
+        match self.method {
+            Method::ClosedForm => "closed-form",
+            Method::Adaptive => "adaptive",
+            Method::Rigorous => "rigorous",
+        }
+    }
+
+    /// Whether the true value is proved, or only believed, to lie between the ends.
+    fn kind(&self) -> &'static str {
+        if self.method == Method::Adaptive { "estimated" } else { "rigorous" }
+    }
+}
+
+impl Report for Limit {
+    fn table(&self) -> String {
+        let rows = [
+            ["limit of the mean information (bits / cell)".to_owned(), self.value.to_string()],
+            [format!("lower end ({})", self.kind()), self.ends[0].to_string()],
+            [format!("upper end ({})", self.kind()), self.ends[1].to_string()],
+            [
+                "cells".to_owned(),
+                match self.weight {
+                    Weight::Radial => "polar (weight radial)".to_owned(),
+                    Weight::Area => "of equal area, Cartesian (weight area)".to_owned(),
+                },
+            ],
+            ["method".to_owned(), format!("{} in {}: {}", self.method(), self.format, self.status)],
+            ["evaluations".to_owned(), self.evaluations.to_string()],
+        ];
+        let title = match self.scans {
+            1 => format!("range {} m, sigma {} m", self.range, self.sigma),
+            n => format!("range {} m, sigma {} m, {n} scans", self.range, self.sigma),
+        };
+        table([&*title, ""], rows)
+    }
+
+    fn rows(&self) -> Vec<Record> {
+        let given = |number: Number| Value::Given(Some(number.widen()));
+        let computed = |number| Value::Computed(Some(number));
+        vec![Record(vec![
+            ("range_m", given(self.range)),
+            ("sigma_m", given(self.sigma)),
+            ("weight", Value::Text(self.weight().to_owned())),
+            ("method", Value::Text(self.method().to_owned())),
+            ("float", Value::Text(self.format.to_owned())),
+            ("scans", Value::Count(self.scans.into())),
+            ("value", computed(self.value)),
+            ("lower", computed(self.ends[0])),
+            ("upper", computed(self.ends[1])),
+            ("kind", Value::Text(self.kind().to_owned())),
+            ("status", Value::Text(self.status.to_owned())),
+            ("evaluations", Value::Count(self.evaluations)),
+        ])]
+    }
+
+    /// One object.
+    fn json(&self) -> Value {
+        self.rows().pop().map_or(Value::Texts(Vec::new()), Value::Record)
+    }
+}

@@ -1,0 +1,213 @@
+//! The limit, three ways: closed form, adaptive and rigorous must agree, for rooms and for models of the user's own.
+
+use super::common::Random;
+use mean_information::build::PolarRoom;
+use mean_information::cell::{information, occupancy_from_log_odds};
+use mean_information::elementary::{exp, ln};
+use mean_information::estimate::Status;
+use mean_information::limit::{Piece, RadialModel, RepeatedScans, Weight, adaptive, closed_form, rigorous};
+use mean_information::quadrature::adaptive::GaussKronrod;
+use mean_information::quadrature::rigorous::Rigorous;
+use mean_information::scalar::Scalar;
+use mean_information::sensor::{GaussianSensor, InverseSensorModel, SteppedSensor};
+use mean_information::{Error, Real};
+
+const WEIGHTS: [Weight; 2] = [Weight::Radial, Weight::Area];
+
+/// The spacing of the floats just above `x`.
+fn ulp<T: Real>(x: T) -> T {
+    let (m, e) = x.parts();
+    T::from_parts(m + 1, e) - x
+}
+
+/// Asserts that the three methods agree on a room: overlap, and width.
+fn assert_agreement<T: Real>(range: T, sigma: T) {
+    let sensor = GaussianSensor::new(range, sigma).expect("positive");
+    for weight in WEIGHTS {
+        let what = format!("{} range {range:e}, sigma {sigma:e}, {weight:?}", T::FORMAT);
+        let enclosure = rigorous(&sensor, weight, &Rigorous::default()).expect("a room");
+        let (lower, upper) = (enclosure.lower, enclosure.upper);
+        let ulp = ulp(lower * T::nearest(1.0 - 1e-7));
+        assert_eq!(enclosure.status, Status::Converged, "{what}");
+        assert!(lower <= upper && upper - lower <= T::nearest(4.0) * ulp, "{what}: {enclosure:?}");
+        let closed = closed_form(&sensor, weight);
+        let slack = ulp + ulp;
+        assert!(lower - slack <= closed && closed <= upper + slack, "{what}: {closed:e}, {enclosure:?}");
+        let relative = T::nearest(if T::PRECISION == 53 { 1e-12 } else { 1e-5 });
+        let estimate = adaptive(&sensor, weight, &GaussKronrod::new().relative(relative)).expect("a room");
+        let error = (estimate.value - lower).abs().max((estimate.value - upper).abs());
+        assert!(error <= estimate.error + (upper - lower), "{what}: {estimate:?}, {enclosure:?}");
+        assert!(estimate.error <= relative + T::nearest(32.0) * T::epsilon(), "{what}: {estimate:?}");
+    }
+}
+
+/// `MEANINFO_ROOMS` rooms in each format; `proofs/RESULTS.md` has the run with 10 000.
+#[test]
+fn the_three_methods_agree() {
+    let rooms = std::env::var("MEANINFO_ROOMS").ok().and_then(|n| n.parse().ok()).unwrap_or(40);
+    let mut random = Random::new(20_261_122);
+    for _ in 0..rooms {
+        // z / σ from 1e-6 to 1e9, evenly by its logarithm; lengths from millimetres to kilometres.
+        let [ratio, sigma] = [(15.0, -6.0), (4.0, -3.0)]
+            .map(|(decades, first)| exp(ln(10.0) * (decades * random.uniform() + first)));
+        assert_agreement(ratio * sigma, sigma);
+        assert_agreement((ratio * sigma) as f32, sigma as f32);
+    }
+}
+
+#[test]
+fn they_agree_at_the_turns_of_the_model() {
+    let half_width = 1.177_410_022_515_474_7;
+    for ratio in [1e-300, 1e-9, 0.46, half_width, 2.5, 40.0, 40.0_f64.next_up(), 1e12, 1e299] {
+        assert_agreement(ratio * 0.25, 0.25);
+    }
+    for ratio in [1e-30, 1e-9, 0.46, half_width as f32, 2.5, 40.0, 40.0_f32.next_up(), 1e12, 1e34] {
+        assert_agreement(ratio * 0.25, 0.25);
+    }
+}
+
+/// Where `z / σ` cannot be squared the integrals refuse; the closed form has no such limit.
+#[test]
+fn a_ratio_that_overflows_is_refused() {
+    let sensor = GaussianSensor::new(1e300_f64, 1e-9).unwrap();
+    for weight in WEIGHTS {
+        assert!(matches!(adaptive(&sensor, weight, &GaussKronrod::new()), Err(Error::OutOfRange { .. })));
+        assert!(matches!(rigorous(&sensor, weight, &Rigorous::default()), Err(Error::OutOfRange { .. })));
+        assert_eq!(closed_form(&sensor, weight), 1.0);
+    }
+}
+
+#[test]
+fn an_evaluation_limit_below_one_rule_for_every_panel_is_refused() {
+    let sensor = GaussianSensor::new(3.0_f64, 0.125).unwrap();
+    let few = |limit| adaptive(&sensor, Weight::Area, &GaussKronrod::new().relative(1e-14).limit(limit));
+    assert!(few(0).is_err() && few(100).is_err());
+    let stopped = few(250).unwrap();
+    assert_eq!(stopped.status, Status::EvaluationLimit);
+    assert!(stopped.evaluations <= 250);
+    let known = closed_form(&sensor, Weight::Area);
+    assert!((stopped.value - known).abs() <= stopped.error && stopped.error > 1e-14);
+}
+
+/// Steps have a limit that can be written down.
+#[test]
+fn steps_have_the_mean_of_their_two_levels() {
+    let model = SteppedSensor::new(4.0_f64, 0.5, 0.2, 0.9).unwrap();
+    let (near, far, free, occupied) = (3.75, 4.25, information(0.2), information(0.9));
+    let known = [
+        (near * free + 0.5 * occupied) / far,
+        (near * near * free + (far * far - near * near) * occupied) / (far * far),
+    ];
+    for (weight, known) in WEIGHTS.into_iter().zip(known) {
+        let enclosure = rigorous(&model, weight, &Rigorous::default()).unwrap();
+        // The formula above rounds a few times.
+        assert!((enclosure.lower - known).abs() < 1e-15 && enclosure.width() < 5e-16, "{enclosure:?}");
+        let estimate = adaptive(&model, weight, &GaussKronrod::new()).unwrap();
+        assert!((estimate.value - known).abs() <= estimate.error && estimate.error < 1e-11, "{estimate:?}");
+    }
+    let unknown = SteppedSensor::new(4.0_f64, 0.5, 0.5, 0.5).unwrap();
+    let enclosure = rigorous(&unknown, Weight::Area, &Rigorous::default()).unwrap();
+    assert_eq!((enclosure.lower, enclosure.upper), (0.0, 0.0));
+    assert_eq!(adaptive(&unknown, Weight::Area, &GaussKronrod::new()).unwrap().value, 0.0);
+}
+
+/// A user's model: the occupancy rises linearly from `low` at the sensor to `high` at `reach`.
+struct Ramp {
+    low: f64,
+    high: f64,
+    reach: f64,
+}
+
+impl RadialModel for Ramp {
+    type Float = f64;
+
+    fn origin(&self) -> f64 {
+        0.0
+    }
+
+    fn scale(&self) -> f64 {
+        self.reach
+    }
+
+    fn pieces<S: Scalar>(&self) -> Vec<Piece<S>> {
+        vec![Piece::new(S::constant(0.0), S::constant(1.0), 1)]
+    }
+
+    fn entropy<S: Scalar>(&self, _: usize, t: S) -> S {
+        let low = S::constant(self.low);
+        (low.clone() + (S::constant(self.high) - low) * t).entropy()
+    }
+}
+
+/// `∫ H dp = (-p² ln p + p²/2 + q² ln q - q²/2) / (2 ln 2)` with `q = 1 - p`.
+#[test]
+fn a_model_of_ones_own() {
+    let model = Ramp { low: 0.0625, high: 0.875, reach: 7.0 };
+    let primitive = |p: f64| {
+        let q = 1.0 - p;
+        (-p * p * ln(p) + 0.5 * p * p + q * q * ln(q) - 0.5 * q * q) / (2.0 * ln(2.0))
+    };
+    let known = 1.0 - (primitive(model.high) - primitive(model.low)) / (model.high - model.low);
+    let enclosure = rigorous(&model, Weight::Radial, &Rigorous::default()).unwrap();
+    assert!((enclosure.lower - known).abs() < 1e-15 && enclosure.width() < 2e-16, "{enclosure:?}, {known}");
+    let estimate = adaptive(&model, Weight::Radial, &GaussKronrod::new()).unwrap();
+    assert!((estimate.value - known).abs() <= estimate.error, "{estimate:?}, {known}");
+    let estimate = adaptive(&model, Weight::Area, &GaussKronrod::new()).unwrap();
+    let enclosure = rigorous(&model, Weight::Area, &Rigorous::default()).unwrap();
+    assert!((estimate.value - enclosure.lower).abs() <= estimate.error, "{estimate:?}, {enclosure:?}");
+}
+
+/// What `RepeatedScans` says of a point, for grids.
+struct Fused {
+    sensor: GaussianSensor<f64>,
+    scans: f64,
+}
+
+impl InverseSensorModel for Fused {
+    type Float = f64;
+
+    fn occupancy(&self, rho: f64) -> f64 {
+        let p = self.sensor.occupancy(rho);
+        occupancy_from_log_odds(self.scans * (ln(p) - ln(1.0 - p)))
+    }
+
+    fn reach(&self) -> f64 {
+        self.sensor.reach()
+    }
+}
+
+/// Polar grids of fused readings tend to the limit. Between its peaks the information is monotone: down to 0 at `-b`, up to 1,
+/// down to 0; so its variation is at most 3, and that of the midpoint rule and of the last ring as in `docs/convergence.md`.
+#[test]
+fn grids_of_repeated_scans_tend_to_their_limit() {
+    let sensor = GaussianSensor::new(3.0_f64, 0.25).unwrap();
+    for scans in [1, 2, 7, 40] {
+        let model = RepeatedScans::new(sensor, scans).unwrap();
+        let limit = rigorous(&model, Weight::Radial, &Rigorous::default()).unwrap();
+        assert!(limit.width() < 4.5e-16, "{limit:?}");
+        let estimate = adaptive(&model, Weight::Radial, &GaussKronrod::new()).unwrap();
+        assert!((estimate.value - limit.lower).abs() <= estimate.error, "{estimate:?}, {limit:?}");
+        for h in [0.05, 0.003] {
+            let room = PolarRoom::new(Fused { sensor, scans: f64::from(scans) }, h).unwrap();
+            let error = room.tally().unwrap().mean_information() - limit.lower;
+            let bound = (3.0 + 1.0) / 2.0 * h / (sensor.reach() - h / 2.0);
+            assert!(error.abs() <= bound, "{scans} scans, {h} m: {error:e}, {bound:e}");
+        }
+    }
+    let one = RepeatedScans::new(sensor, 1).unwrap();
+    let limit = rigorous(&one, Weight::Area, &Rigorous::default()).unwrap();
+    assert!((limit.lower - closed_form(&sensor, Weight::Area)).abs() < 4e-16, "{limit:?}");
+}
+
+/// The deficit of many scans is `c / n` (bumps of the same shape, narrower and narrower), and `O(1 / n^2)`: the one at the
+/// outer edge is cut in half, and its flanks are not symmetric.
+#[test]
+fn the_deficit_of_many_scans_falls_like_their_number() {
+    let sensor = GaussianSensor::new(3.0_f64, 0.25).unwrap();
+    let deficit = |scans| {
+        let model = RepeatedScans::new(sensor, scans).unwrap();
+        f64::from(scans) * (1.0 - rigorous(&model, Weight::Radial, &Rigorous::default()).unwrap().upper)
+    };
+    let [coarse, fine] = [1_000, 4_000].map(|n| deficit(4 * n) / deficit(n) - 1.0);
+    assert!(coarse.abs() < 1e-4 && (coarse / fine - 4.0).abs() < 0.1, "{coarse:e}, {fine:e}");
+}

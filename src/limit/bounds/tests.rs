@@ -30,7 +30,10 @@ fn a_circle_holds_no_more_points_than_the_bound() {
         let radius = sqrt(square);
         let held = points(0.0, 0.0, radius - 1e-9..=radius + 1e-9);
         assert_eq!(held, expected);
-        assert!(held <= (Up(6.31) * Up(radius).two_thirds_power() + Up(2.0)).0);
+        // In cells of 3 m, a room whose p is 1/2 on this circle.
+        let sensor = GaussianSensor::new(3.0 * (radius + 2.5 * B[0]), 7.5).unwrap();
+        let room = Room::new(&sensor, 3.0, Weight::Area).unwrap();
+        assert!(held <= room.cells_at_one_half(Up(0.0)).0);
     }
     // Half-way between cells: 2 n = (2i + 1)^2 + (2j + 1)^2.
     assert_eq!(points(0.5, 0.5, 0.7..=0.71), 4.0);

@@ -138,6 +138,18 @@ proptest! {
     }
 }
 
+/// Half a ring is all that a beam can gain or lose, and where rings are small beside the noise there is little else.
+#[test]
+fn the_polar_bound_is_attained() {
+    let (z, sigma) = (2.0_f64, 0.25);
+    let reach = z + B * sigma;
+    for rings in [500.499_999, 500.500_001] {
+        let [polar, _] = outcomes(z, sigma, reach / rings, [0.5; 2]).unwrap();
+        polar.holds().unwrap();
+        assert!(polar.error > 0.95 * polar.bound, "{} of {}", polar.error, polar.bound);
+    }
+}
+
 /// A circle of cells at which `p` is 1/2 after rounding, and a ring: the count before counting allows for them.
 #[test]
 fn rooms_whose_inner_circle_is_hit() {

@@ -240,6 +240,10 @@ fn steps_are_counted_exactly() {
         (7, 2, 0),
         "8.5 cells: the face is included"
     );
+    // The cell of the step, from 7 to 8, is half free and half occupied: 9/16.
+    let averaged = PolarRoom::new(sensor, 0.5).unwrap().with_sampling(Sampling::Averaged(2)).unwrap();
+    assert_eq!(averaged.map(1, 9).unwrap().cells()[6..], [0.25, 0.5625, 0.6875]);
+    assert_eq!(averaged.tally().unwrap(), averaged.map(1, 9).unwrap().tally());
     let tally = CartesianRoom::new(sensor, 0.5, [-3.0, 2.0]).unwrap().tally().unwrap();
     // Lattice points with i^2 + j^2 < 56.25, and up to 72.25.
     let count = |limit: f64| {

@@ -50,7 +50,7 @@ fn fraction() -> impl Strategy<Value = f64> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(5000))]
+    #![proptest_config(ProptestConfig::with_cases(2000))]
 
     #[test]
     fn distances_are_correctly_rounded(
@@ -80,6 +80,15 @@ proptest! {
         prop_assert_eq!(rounded, step * hypotenuse as f64 * f64::from_parts(1, scale));
         let step = step as f32;
         prop_assert_eq!(check(step, scale, [x, y], [0.0; 2]), multiple(step, scale, hypotenuse as u128));
+    }
+
+    /// A midpoint and the smallest number more: every bit of the squares is needed, wherever limbs end.
+    #[test]
+    fn a_tie_is_broken_by_the_least_bit(half in 1_u64 << 51..(1 << 53) / 3, k in 0_i32..40) {
+        let step = f64::from_parts(2 * half + 1, -60);
+        let rounded = check(step, 0, [3 << k, 0], [0.0, f64::from_bits(1)]);
+        let tie = check(step, 0, [3 << k, 0], [0.0; 2]);
+        prop_assert!(tie <= rounded && rounded <= tie.next_up());
     }
 
     #[test]

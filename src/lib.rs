@@ -37,7 +37,9 @@
 //! | [`limit`] | what the mean information of one scan tends to as cells shrink | 6, 7 |
 //! | [`quadrature`] | integrals of functions of one variable | |
 //! | [`estimate`] | results with an estimated error, and results with a proved enclosure | |
-//! | [`scalar`] | what integrands are written in: floats, intervals, jets | |
+//! | [`scalar`] | what integrands are written in: floats, intervals, rectangles | |
+//! | [`interval`] | intervals that contain the exact result of every operation | |
+//! | [`quadrature`] | integrals of any integrand, with the error proved | |
 //! | [`real`] | the two formats of floats | |
 //! | [`book`] | the derivation, chapter by chapter, with every claim executed | |
 //!

@@ -1,6 +1,7 @@
-//! What an integrand is written in: [`Scalar`], for which floats, intervals and jets can stand.
+//! What an integrand is written in: [`Scalar`], for which floats, intervals and rectangles of the complex plane can stand.
 //!
-//! A formula written once, generic over `Scalar`, gives values at floats, ranges over intervals, and Taylor coefficients at jets.
+//! A formula written once, generic over `Scalar`, gives values at floats, ranges over intervals, and, over rectangles, a bound on
+//! its magnitude where it is analytic.
 
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};
@@ -9,7 +10,7 @@ use crate::cell;
 use crate::elementary;
 use crate::real::Real;
 
-/// A number that formulas can be evaluated in: a float, an interval, or a jet (truncated Taylor series) of either.
+/// A number that formulas can be evaluated in: a float, an interval, or a rectangle of complex numbers.
 ///
 /// ```
 /// use mean_information::scalar::Scalar;
@@ -54,7 +55,7 @@ pub trait Scalar:
     fn entropy_from_log_odds(self) -> Self;
 }
 
-/// A function of one variable, written once for floats, intervals and jets.
+/// A function of one variable, written once for floats, intervals and rectangles.
 ///
 /// ```
 /// use mean_information::scalar::{Integrand, Scalar};

@@ -25,8 +25,8 @@ use Toward::{Down, Up};
 /// A function is taken where it is defined: `√[-1, 4]` is `[0, 2]`, and `ln [-2, -1]` is [`EMPTY`](Self::EMPTY), which every
 /// operation hands on. Division by an interval with 0 inside leaves no bounds.
 ///
-/// The ends are the best floats, but for products, quotients and roots near overflow and underflow, and for a logarithm or an
-/// exponential within `2^-66` of a float, relative to it, where they may be the next ones (proved in
+/// The ends are the best floats. They may be the next ones for products, quotients and roots near overflow and underflow, and for
+/// a value of another function that is within `2^-65` of a float, relative to it (proved in
 /// [`integration`](crate::book::integration)).
 ///
 /// ```

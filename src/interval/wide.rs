@@ -1,7 +1,8 @@
 //! A float of 128 bits, [`Wide`]: the ends of intervals so narrow that a sum of hundreds of them still rounds to one `f64`.
 //!
-//! Sums and products are within a unit of the last place, quotients within `2^-117`, `e^x` within `2^-76` and `ln x` within
-//! `2^-68`, relative to the value, or `2^-75`: proved in [`integration`](crate::book::integration).
+//! Sums and products are within a unit of the last place, quotients and roots within `2^-115`, `e^x` within `2^-77`, all relative
+//! to the value; `ln x` is within `2^-76`, and near 1 within `2^-69` of its value: proved in
+//! [`integration`](crate::book::integration).
 
 use core::cmp::Ordering;
 use core::ops::Neg;

@@ -1,6 +1,8 @@
 //! The table of guarantees: `docs/guarantees.md` says the same, and what it cites is there.
 
 use mean_information::build::{CartesianRoom, PolarRoom};
+use mean_information::interval::Interval;
+use mean_information::quadrature::rigorous::Rigorous;
 use mean_information::sensor::{GaussianSensor, InverseSensorModel};
 use mean_information::{ExactSum, Tally, cell, elementary, limit, map};
 use std::fs;
@@ -49,6 +51,8 @@ pub(crate) fn guarantees() -> Vec<Guarantee> {
         limit::closed_form::<f64> => "limit::closed_form", 0.501, Proved;
         PolarRoom::<GaussianSensor<f64>>::distance => "PolarRoom::distance", 0.5, Proved;
         CartesianRoom::<GaussianSensor<f64>>::distance => "CartesianRoom::distance", 0.5, Proved;
+        Interval::<f64>::new => "Interval", 2.0, Proved;
+        Rigorous::<f64>::default => "Rigorous::integrate", 0.0, Proved;
     }
 }
 

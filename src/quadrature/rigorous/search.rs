@@ -45,34 +45,30 @@ const NARROWEST: f64 = 1.0 / (1_u128 << 120) as f64;
 const ROUND_OFF: f64 = 1.0 / (1_u128 << 66) as f64;
 /// An estimate this much below the crudest bound is not trusted.
 const DOUBT: f64 = 1.0 / (1_u64 << 20) as f64;
-/// How often the sum is made at most: again, if the integral turns out smaller than was estimated.
-const PASSES: usize = 3;
 
 impl<F: Integrand> Search<'_, F> {
     /// The integral, with a width of at most `absolute` or `relative` times its magnitude, if that can be.
     pub(super) fn run(&mut self, absolute: f64, relative: f64) -> Integral {
         let wanted = |magnitude: f64| absolute.max(relative * magnitude);
-        let mut target = wanted(self.estimate()) / 4.0;
+        let mut target = wanted(self.estimate()).min(f64::MAX) / 4.0;
         let mut value = Interval::WHOLE;
-        let mut status = Status::RoundOff;
-        for _ in 0..PASSES {
+        loop {
             let sum = self.pass(target);
             // Each contains the integral.
             value = value.intersection(sum.value);
             let wanted = wanted(smallest_magnitude(value));
-            status = match sum.status {
+            let status = match sum.status {
                 _ if width(value) <= wanted => Status::Converged,
                 Status::Converged => Status::RoundOff,
                 other => other,
             };
             // Too wide, though every panel is as narrow as was asked for: ask for more, if there is more.
             let next = wanted.max(ROUND_OFF * sum.size) / 4.0;
-            if status != Status::RoundOff || next >= target {
-                break;
+            if status != Status::RoundOff || next > target / 2.0 {
+                return Integral { value, status, evaluations: self.evaluations };
             }
             target = next;
         }
-        Integral { value, status, evaluations: self.evaluations }
     }
 
     /// About the magnitude of the integral: a tolerance to begin with.

@@ -1,5 +1,7 @@
 //! The library against its definition: properties, relations and special cases.
 
+mod adaptive;
+mod battery;
 mod bounds;
 mod cell;
 mod closed_form;

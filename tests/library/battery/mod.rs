@@ -19,7 +19,8 @@ pub(crate) struct Case {
 /// Every case.
 pub(crate) fn cases() -> Vec<Case> {
     let number = |text: &str| text.parse::<f64>().expect("a number");
-    let list = |text: &'static str| text.split(',').filter(|text| *text != "-").map(number).collect::<Vec<_>>();
+    let list =
+        |text: &'static str| text.split(',').filter(|text| *text != "-").map(number).collect::<Vec<_>>();
     include_str!("cases.txt")
         .lines()
         .map(|line| {
@@ -40,7 +41,14 @@ impl Case {
         (value - self.value[0] - self.value[1]).abs()
     }
 
+    /// The parameters of the family.
+    #[allow(dead_code, reason = "the comparison prints them")]
+    pub(crate) fn parameters(&self) -> &[f64] {
+        &self.parameters
+    }
+
     /// The truth, rounded.
+    #[allow(dead_code, reason = "the comparison prints it")]
     pub(crate) fn value(&self) -> f64 {
         self.value[0]
     }
@@ -50,7 +58,8 @@ impl Case {
     /// The functions of the standard library that it uses are within an ulp or two.
     pub(crate) fn integrand<T: Real + Float>(&self) -> Box<dyn Fn(T) -> T> {
         let c: Vec<T> = self.parameters.iter().map(|&x| T::nearest(x)).collect();
-        let (zero, one, two) = (<T as num_traits::Zero>::zero(), <T as num_traits::One>::one(), T::nearest(2.0));
+        let (zero, one, two) =
+            (<T as num_traits::Zero>::zero(), <T as num_traits::One>::one(), T::nearest(2.0));
         match self.family {
             "quadpack-1" => Box::new(move |x| -Float::powf(x, c[0]) * Float::ln(x)),
             "quadpack-2" | "lyness-peak" => Box::new(move |x| c[0] / (square(x - c[1]) + square(c[0]))),

@@ -3,10 +3,10 @@
 
     proofs/gauss_kronrod.py > src/quadrature/adaptive/tables.rs
 
-The n Gauss nodes are the zeros of the Legendre polynomial P_n, the n + 1 nodes that Kronrod adds those of the Stieltjes
-polynomial E_{n+1}, which is orthogonal to 1, x, ..., x^n with the weight P_n on [-1, 1]. Both polynomials are computed in
-rational numbers, their zeros and the weights (integrals of the Lagrange polynomials) with 150 digits. Checked before printing:
-the rules integrate every power they should to 1e-90.
+The n Gauss nodes are the zeros of the Legendre polynomial P_n, the n + 1 that Kronrod adds those of the Stieltjes
+polynomial E_{n+1}, orthogonal to 1, x, ..., x^n with the weight P_n on [-1, 1]. Both polynomials are computed in
+rational numbers, their zeros and the weights (integrals of the Lagrange polynomials) with 150 digits. Checked before
+printing: the rules integrate every power they should to 1e-90.
 """
 
 from fractions import Fraction
@@ -108,7 +108,9 @@ def array(name, what, numbers):
     print("];")
 
 
-print("//! Nodes and weights on `[-1, 1]`, to 36 digits: the compiler rounds them once. Written by `proofs/gauss_kronrod.py`.")
+print("//! Nodes and weights on `[-1, 1]`, to 36 digits: the compiler rounds them once.")
+print("//!")
+print("//! Written by `proofs/gauss_kronrod.py`.")
 print("//!")
 print("//! Nodes from the outermost inwards, the last one is 0; every second one from the second on is a Gauss node.")
 print()
@@ -117,6 +119,7 @@ for n in (7, 10, 15, 20, 25, 30):
     nodes, kronrod, gauss = rule(n)
     size = 2 * n + 1
     print()
-    array(f"NODES_{size}", f"The nodes of the rule {n}-{size} from the outermost to the middle.", [abs(x) for x in nodes[: n + 1]])
+    one_side = [abs(x) for x in nodes[: n + 1]]
+    array(f"NODES_{size}", f"The nodes of the rule {n}-{size} from the outermost to the middle.", one_side)
     array(f"KRONROD_{size}", f"Kronrod's weights of the rule {n}-{size}.", kronrod[: n + 1])
     array(f"GAUSS_{size}", f"Gauss's weights of the rule {n}-{size}.", gauss[: (n + 1) // 2])

@@ -1,7 +1,7 @@
 //! The battery of the adaptive quadrature by this crate and by others: claimed and true errors, and what they cost.
 //!
 //!     cargo run --release --manifest-path comparison/Cargo.toml            the summary, as in RESULTS.md
-//!     cargo run --release --manifest-path comparison/Cargo.toml -- all     every case: value, claim, true error, evaluations
+//!     cargo run --release --manifest-path comparison/Cargo.toml -- all     every case as well
 
 use battery::Case;
 use mean_information::Real;
@@ -79,7 +79,8 @@ fn quad_rs(f: &dyn Fn(f64) -> f64, points: &[f64], tolerance: f64) -> Option<Sai
     Some(Said { value: result.integral, claim: result.error, done: true })
 }
 
-/// Takes no break points and an absolute tolerance: one call between two points, with the tolerance that the value allows.
+/// Takes no break points and an absolute tolerance: one call between two points, with the tolerance that the value
+/// allows.
 fn quadrature(case: &Case, f: &dyn Fn(f64) -> f64, points: &[f64], tolerance: f64) -> Option<Said> {
     let target = tolerance * case.value().abs() / (points.len() - 1) as f64;
     let mut said = Said { value: 0.0, claim: 0.0, done: true };

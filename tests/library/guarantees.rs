@@ -58,14 +58,7 @@ pub(crate) fn guarantees() -> Vec<Guarantee> {
 
 #[test]
 fn the_page_says_what_the_table_says() {
-    let page = include_str!("../../docs/guarantees.md");
-    let (_, table) = page.split_once("<!-- table -->").expect("the page marks its table");
-    let (table, _) = table.split_once("<!-- end -->").expect("the page marks the end of its table");
-    let rows: Vec<Vec<&str>> = table
-        .lines()
-        .filter(|line| line.starts_with("| `"))
-        .map(|line| line.trim_matches('|').split('|').map(str::trim).collect())
-        .collect();
+    let rows = rows("<!-- table -->", "<!-- end -->");
     let guarantees = guarantees();
     assert_eq!(rows.len(), guarantees.len());
     for (row, guarantee) in rows.iter().zip(&guarantees) {
@@ -73,10 +66,38 @@ fn the_page_says_what_the_table_says() {
         assert_eq!(row[1], "f32, f64");
         assert_eq!(row[2], format!("{} ulp", guarantee.ulps));
         assert_eq!(row[3], format!("{:?}", guarantee.known).to_lowercase());
-        for cited in row[4].split('`').skip(1).step_by(2) {
-            let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(cited);
-            assert!(path.exists(), "{} cites {cited}", guarantee.function);
-        }
+        assert_cited_files_exist(row);
+    }
+}
+
+/// Their claims are tested in `adaptive.rs`, without any allowance.
+#[test]
+fn the_page_lists_the_estimates() {
+    let rows = rows("<!-- estimates -->", "<!-- end of estimates -->");
+    let functions = ["`GaussKronrod::integrate`", "`GaussKronrod::integrate_between`"];
+    assert_eq!(rows.iter().map(|row| row[0]).collect::<Vec<_>>(), functions);
+    for row in &rows {
+        assert_eq!(row[2..4], ["the claimed error", "measured"]);
+        assert_cited_files_exist(row);
+    }
+}
+
+/// The cells of a table of the page.
+fn rows(begin: &str, end: &str) -> Vec<Vec<&'static str>> {
+    let page = include_str!("../../docs/guarantees.md");
+    let (_, table) = page.split_once(begin).expect("the page marks its table");
+    let (table, _) = table.split_once(end).expect("the page marks the end of its table");
+    table
+        .lines()
+        .filter(|line| line.starts_with("| `"))
+        .map(|line| line.trim_matches('|').split('|').map(str::trim).collect())
+        .collect()
+}
+
+fn assert_cited_files_exist(row: &[&str]) {
+    for cited in row[4].split('`').skip(1).step_by(2) {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(cited);
+        assert!(path.exists(), "{} cites {cited}", row[0]);
     }
 }
 

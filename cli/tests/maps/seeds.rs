@@ -21,6 +21,7 @@ const TARGETS: [Target; 7] = [
     ("gridmap", properties::gridmap, gridmap_seeds),
     ("grid", properties::grid, grid_seeds),
     ("room", properties::room, room_seeds),
+    ("integrate", properties::integrate, integrate_seeds),
 ];
 
 fn folder(target: &str) -> PathBuf {
@@ -180,5 +181,36 @@ fn room_seeds() -> Vec<(&'static str, Vec<u8>)> {
         ("countable_f32", of(3, 0, [3e-39, 0.3, 0.9, 0.125, 7.0])),
         ("too_fine", of(0, 0, [2.0, 0.2, 1e-300, 0.5, 0.5])),
         ("bad", of(0, 3, [2.0, -0.2, f64::NAN, f64::INFINITY, 0.5])),
+    ]
+}
+
+fn integrate_seeds() -> Vec<(&'static str, Vec<u8>)> {
+    // Format and rule, kind of integrand, points, limit; the tolerances, the points, what the integrand is made of.
+    let of = |head: [u8; 4], floats: &[f64]| {
+        let tail: Vec<u8> = if head[0] % 2 == 0 {
+            floats.iter().flat_map(|&x| (x as f32).to_le_bytes()).collect()
+        } else {
+            floats.iter().flat_map(|x| x.to_le_bytes()).collect()
+        };
+        [&head[..], &tail].concat()
+    };
+    let points = [-1.5, 0.25, 3.0];
+    vec![
+        (
+            "polynomial_f32",
+            of([0, 0, 3, 40], &[&[0.0, 1e-4][..], &points, &[2.0, -3.0, 0.5, 7.0, -0.25]].concat()),
+        ),
+        (
+            "polynomial_f64",
+            of([3, 0, 3, 40], &[&[1e-9, 1e-10][..], &points, &[2.0, -3.0, 0.5, 7.0]].concat()),
+        ),
+        ("peak", of([5, 1, 3, 255], &[&[0.0, 1e-8][..], &points, &[0.25, 1e-7]].concat())),
+        ("jump", of([1, 2, 2, 255], &[0.0, 1e-6, -1.5, 3.0, 0.7, 5.0])),
+        ("infinite", of([7, 3, 2, 99], &[0.0, 1e-6, -1.5, 3.0, 0.7, 5.0])),
+        ("power", of([1, 4, 3, 255], &[0.0, 1e-6, -1.5, 0.0, 3.0])),
+        ("huge", of([9, 0, 2, 200], &[0.0, 1e-6, -1e308, 1e308, 0.25])),
+        ("vanishing", of([11, 1, 2, 200], &[1e-300, 1e-6, 1.0, 1.0000000000000002, 0.25, 3.0])),
+        ("out_of_order", of([3, 0, 3, 200], &[0.0, 0.5, 3.0, f64::NAN, -1.5, 0.25])),
+        ("no_tolerance", of([3, 0, 2, 200], &[-1.0, 1e-30, 3.0, 4.0])),
     ]
 }

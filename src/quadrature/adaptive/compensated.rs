@@ -2,7 +2,8 @@
 
 use crate::real::Real;
 
-/// A sum and what rounding has taken from it: `sum + lost` is as good as if computed with twice the digits and rounded once.
+/// A sum and what rounding has taken from it: `sum + lost` is as good as if computed with twice the digits and
+/// rounded once.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Compensated<T> {
     sum: T,

@@ -7,14 +7,15 @@ use alloc::vec::Vec;
 /// The most panels that are graded: an `f64` halved that often has long been 0.
 const MOST: usize = 10_000;
 
-/// Break points from `from` to `towards`, where the panels shrink geometrically: `towards + (from - towards) ratio^k` for
-/// `k = 0, 1, ..., panels - 1`, and `towards`. In ascending order, whichever end is the upper.
+/// Break points from `from` to `towards`, where the panels shrink geometrically: `towards + (from - towards) ratio^k`
+/// for `k = 0, 1, ..., panels - 1`, and `towards`. In ascending order, whichever end is the upper.
 ///
-/// For [`integrate_between`](super::GaussKronrod::integrate_between): towards a singularity, to spare the halvings that would find
-/// it; towards the end where the mass of a long interval lies.
+/// For [`integrate_between`](super::GaussKronrod::integrate_between): towards a singularity, to spare the halvings
+/// that would find it; towards the end where the mass of a long interval lies.
 ///
-/// **Error**: each point within `k + 3` ulp of the largest magnitude of the ends (proved: the distance is rounded twice, each
-/// power once more than the one before, and the sum once). Points that coincide are harmless, and left.
+/// **Error**: each point is within `(k + 2) ε` of the largest magnitude of the ends, `ε` being the spacing of floats at 1
+/// (proved: the distance is at most twice that magnitude and rounded `k + 1` times by half an `ε`, the sum once). Points
+/// that coincide are harmless, and left.
 ///
 /// # Errors
 /// [`Error::OutOfRange`] if an end is not finite, `ratio` not in (0, 1), or `panels` not in 1 to 10 000.

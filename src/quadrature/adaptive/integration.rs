@@ -113,12 +113,12 @@ fn not_finite<T>(stretch: Stretch<T>) -> Status<T> {
     Status::NotFinite { lower: stretch.lower, upper: stretch.upper }
 }
 
-/// The claim on a stretch: the noise, and the geometric series `d + d r + d r^2 + ... = d / (1 - r)` of the difference `d`, were each
-/// further halving to reduce it by `r`.
+/// The claim on a stretch: the noise, and the geometric series `d + d r + d r^2 + ... = d / (1 - r)` of the
+/// difference `d`, were each further halving to reduce it by `r`.
 ///
-/// `r` is the slowest of three: of the bands, of `d` to that of the panel before it was halved, and of the halving before that.
-/// Where they do not fall nothing is known, and the claim is infinite: so it is in a first panel whose bands fall by less than
-/// half, as those of any peak at its end do.
+/// `r` is the slowest of three: of the bands, of `d` to that of the panel before it was halved, and of the halving
+/// before that. Where they do not fall nothing is known, and the claim is infinite: so it is in a first panel whose
+/// bands fall by less than half, as those of any peak at its end do.
 fn claimed<T: Real>(reading: &Reading<T>, stretch: Stretch<T>, parent: Option<&Panel<T>>) -> Panel<T> {
     let Reading { value, difference, decay, noise } = *reading;
     let ratio = match parent {
@@ -140,9 +140,10 @@ fn claimed<T: Real>(reading: &Reading<T>, stretch: Stretch<T>, parent: Option<&P
 /// What counts as of the same size as the whole, in a half of it.
 const ALIKE: u64 = 8;
 
-/// The halves of a panel, compared with it. A smooth integrand reduces the difference in both, a singular point in one. If it is of
-/// the same size in both, and was so when the whole was a half, and is in the lower half of the digits of the integral (whose last
-/// ones are `fixed`), then the integrand is less smooth than its floats: it is noise, which no halving reduces.
+/// The halves of a panel, compared with it. A smooth integrand reduces the difference in both, a singular point in
+/// one. If it is of the same size in both, and was so when the whole was a half, and is in the lower half of the
+/// digits of the integral (whose last ones are `fixed`), then the integrand is less smooth than its floats: it is
+/// noise, which no halving reduces.
 fn compared<T: Real>(whole: &Panel<T>, halves: [Panel<T>; 2], fixed: T) -> [Panel<T>; 2] {
     let times = T::from_parts(ALIKE, 0);
     let alike = halves.iter().all(|half| times * half.difference > whole.difference);

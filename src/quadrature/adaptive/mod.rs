@@ -25,13 +25,13 @@ use stretch::Stretch;
 
 /// Adaptive Gauss-Kronrod quadrature: the settings, and [`integrate`](Self::integrate).
 ///
-/// `∫ f(x) dx` over a finite interval. A [`Rule`] is applied to the panels between break points; the panel with the largest
-/// claimed error is halved, until the sum of the claims is at most `max(absolute, relative |value|)`.
+/// `∫ f(x) dx` over a finite interval. A [`Rule`] is applied to the panels between break points; the panel with the
+/// largest claimed error is halved, until the sum of the claims is at most `max(absolute, relative |value|)`.
 ///
 /// **Error**: [`Estimate::error`] is an estimate, not a proof. It holds in every case of the battery (measured,
-/// [`guarantees`](crate::book::guarantees)). It takes the values of the integrand to be within 2 ulp of exact, at arguments
-/// within 2 ulp of those given. No method that only evaluates can know of a peak that none of its nodes meets, or of a jump that
-/// they straddle evenly: give break points where the integrand is known to change.
+/// [`guarantees`](crate::book::guarantees)). It takes the values of the integrand to be within 2 ulp of exact, at
+/// arguments within 2 ulp of those given. No method that only evaluates can know of a peak that none of its nodes
+/// meets, or of a jump that they straddle evenly: give break points where the integrand is known to change.
 ///
 /// ```
 /// use mean_information::cell::entropy;
@@ -39,7 +39,7 @@ use stretch::Stretch;
 /// use mean_information::estimate::Status;
 /// use mean_information::quadrature::adaptive::{GaussKronrod, Rule};
 ///
-/// // The information that one reading lacks, from 10 standard deviations in front of the obstacle up to it (bits times σ).
+/// // What one reading lacks from 10 standard deviations in front of the obstacle up to it, in bits times σ.
 /// let deficit = |t: f64| entropy(exp(-0.5 * t * t));
 /// let integral = GaussKronrod::new().relative(1e-13).rule(Rule::K31).integrate(deficit, -10.0, 0.0)?;
 /// assert_eq!(integral.status, Status::Converged);
@@ -62,8 +62,8 @@ impl<T: Real> Default for GaussKronrod<T> {
 }
 
 impl<T: Real> GaussKronrod<T> {
-    /// The rule [`K21`](Rule::K21), three quarters of the digits (a relative tolerance of `2^-39` in `f64`, `2^-18` in `f32`, and
-    /// none absolute), and at most 100 000 evaluations.
+    /// The rule [`K21`](Rule::K21), three quarters of the digits (a relative tolerance of `2^-39` in `f64`, `2^-18`
+    /// in `f32`, and none absolute), and at most 100 000 evaluations.
     pub fn new() -> Self {
         let digits = (3 * T::PRECISION / 4) as i32;
         Self { rule: Rule::K21, absolute: T::zero(), relative: T::from_parts(1, -digits), limit: 100_000 }
@@ -75,7 +75,8 @@ impl<T: Real> GaussKronrod<T> {
         Self { rule, ..self }
     }
 
-    /// The tolerance relative to the value: 0 for none, or from the spacing of floats at 1 (`2^-52` in `f64`, `2^-23` in `f32`) up to 1.
+    /// The tolerance relative to the value: 0 for none, or from the spacing of floats at 1 (`2^-52` in `f64`, `2^-23`
+    /// in `f32`) up to 1.
     #[must_use]
     pub fn relative(self, relative: T) -> Self {
         Self { relative, ..self }
@@ -96,16 +97,18 @@ impl<T: Real> GaussKronrod<T> {
     /// The integral of `f` from `from` to `to`; the negative of that from `to` to `from`.
     ///
     /// **Error**: as [`GaussKronrod`] says. **Status**: [`Converged`](Status::Converged) within the tolerance;
-    /// [`EvaluationLimit`](Status::EvaluationLimit) before that; [`RoundOff`](Status::RoundOff) where rounding is most of the claimed error and above the
-    /// tolerance; [`Unresolved`](Status::Unresolved) where a panel that floats are too coarse to halve is, an infinite error there
-    /// meaning that halving did not help (a divergent integral); [`NotFinite`](Status::NotFinite), with the value NaN and an infinite
-    /// error, where the integrand or its integral over a panel is.
+    /// [`EvaluationLimit`](Status::EvaluationLimit) before that; [`RoundOff`](Status::RoundOff) where rounding is
+    /// most of the claimed error and above the tolerance; [`Unresolved`](Status::Unresolved) where a panel that
+    /// floats are too coarse to halve is, an infinite error there meaning that halving did not help (a divergent
+    /// integral); [`NotFinite`](Status::NotFinite), with the value NaN and an infinite error, where the integrand or
+    /// its integral over a panel is.
     ///
     /// Special case: 0, without an evaluation, if `from == to`.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if an end is not finite, or a setting not as its function says; also if both tolerances are 0. An
-    /// infinite interval needs a substitution that knows the scale of the integrand, such as `x = s t / (1 - t)`.
+    /// [`Error::OutOfRange`] if an end is not finite, or a setting not as its function says; also if both tolerances
+    /// are 0. An infinite interval needs a substitution that knows the scale of the integrand, such as `x = s t / (1
+    /// - t)`.
     ///
     /// ```
     /// use mean_information::quadrature::adaptive::GaussKronrod;
@@ -126,14 +129,14 @@ impl<T: Real> GaussKronrod<T> {
         Ok(Estimate { value: -estimate.value, ..estimate })
     }
 
-    /// The integral of `f` from the first of the points to the last, with panels that begin between them: give those where `f` or
-    /// its derivatives jump or are infinite, and a few about each narrow peak ([`graded`]).
+    /// The integral of `f` from the first of the points to the last, with panels that begin between them: give those
+    /// where `f` or its derivatives jump or are infinite, and a few about each narrow peak ([`graded`]).
     ///
     /// Error, status and special case as for [`integrate`](Self::integrate). Points may repeat.
     ///
     /// # Errors
-    /// As for [`integrate`](Self::integrate), with fewer than two points among them; [`Error::BreakPoint`] if a point is not finite or
-    /// below the one before it.
+    /// As for [`integrate`](Self::integrate), with fewer than two points among them; [`Error::BreakPoint`] if a point
+    /// is not finite or below the one before it.
     ///
     /// ```
     /// use mean_information::quadrature::adaptive::GaussKronrod;

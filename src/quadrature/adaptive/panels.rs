@@ -1,8 +1,8 @@
 //! The panels of an integral, in a tree that knows their sums and the worst of them.
 //!
-//! A panel at place `i` stands above those at `2i + 1` and `2i + 2`, as in a heap. Each place knows the totals of all panels from
-//! it downwards. Replacing a panel renews the totals on its way to the root: each is always a sum of the panels that are, never a
-//! running one, so nothing drifts.
+//! A panel at place `i` stands above those at `2i + 1` and `2i + 2`, as in a heap. Each place knows the totals of all
+//! panels from it downwards. Replacing a panel renews the totals on its way to the root: each is always a sum of the
+//! panels that are, never a running one, so nothing drifts.
 
 use super::compensated::Compensated;
 use super::stretch::Stretch;

@@ -1,5 +1,5 @@
-//! Gauss-Kronrod rules: `2n + 1` values of the integrand give the integral twice, with the `n` nodes of Gauss and with all,
-//! and the coefficients of its Legendre series, which tell how fast either converges.
+//! Gauss-Kronrod rules: `2n + 1` values of the integrand give the integral twice, with the `n` nodes of Gauss and
+//! with all, and the coefficients of its Legendre series, which tell how fast either converges.
 
 use super::compensated::Compensated;
 use super::stretch::Stretch;
@@ -8,9 +8,9 @@ use crate::real::Real;
 
 /// A Gauss-Kronrod pair, named after its evaluations.
 ///
-/// With `n` nodes of Gauss the rule has `2n + 1` nodes and integrates polynomials of degree `3n + 1` exactly. Nodes and weights are
-/// correctly rounded in either format (proved: the decimals they are written as, to 36 digits, are those of the rule, and the
-/// compiler rounds once; for `f32`, rounding twice makes no difference). Few nodes suit
+/// With `n` nodes of Gauss the rule has `2n + 1` nodes and integrates polynomials of degree `3n + 1` exactly. Nodes
+/// and weights are correctly rounded in either format (proved: the decimals they are written as, to 36 digits, are
+/// those of the rule, and the compiler rounds once; for `f32`, rounding twice makes no difference). Few nodes suit
 /// singularities and peaks, where panels are halved many times; many suit smooth and oscillating integrands.
 ///
 /// ```
@@ -170,9 +170,9 @@ impl Table {
 
 /// A bound on what rounding does to the integral over a stretch, given the mean of `|f|`.
 ///
-/// In units of the epsilon `2u`: relative to `|f|`, 1/2 each for weight, product, sum, width and last product, 2 for the
-/// integrand, and 1/2 to spare; in the argument, 2 for the node (`c ± h x` has six roundings, below `4u` of the end in all) and
-/// 2 for the integrand's own. Below the normal range, a spacing for every product and sum.
+/// In units of the epsilon `2u`: relative to `|f|`, 1/2 each for weight, product, sum, width and last product, 2 for
+/// the integrand, and 1/2 to spare; in the argument, 2 for the node (`c ± h x` has six roundings, below `4u` of the
+/// end in all) and 2 for the integrand's own. Below the normal range, a spacing for every product and sum.
 fn noise<T: Real>(values: &[T], size: T, stretch: Stretch<T>) -> T {
     let epsilon = T::epsilon();
     let [four, five] = [4, 5].map(|k| T::from_parts(k, 0));
@@ -186,12 +186,12 @@ fn noise<T: Real>(values: &[T], size: T, stretch: Stretch<T>) -> T {
     stretch.widths(five * epsilon * size + floor) + four * variation * stretch.magnitude() + floor
 }
 
-/// What turns the values of one side into two bands of the Legendre series, the coefficients of degrees `n - 3` to `n` and of
-/// four up to `(3n + 1) / 2`: the highest that Kronrod's rule finds without a share of lower ones, as the product of two
-/// polynomials of that degree is one that it integrates.
+/// What turns the values of one side into two bands of the Legendre series, the coefficients of degrees `n - 3` to
+/// `n` and of four up to `(3n + 1) / 2`: the highest that Kronrod's rule finds without a share of lower ones, as the
+/// product of two polynomials of that degree is one that it integrates.
 ///
-/// A coefficient is that of the orthonormal polynomial `√(2k + 1) P_k(x)`. Degree `k` stands in place `k % 4` of its band, so that the
-/// parity of the place is that of the polynomial.
+/// A coefficient is that of the orthonormal polynomial `√(2k + 1) P_k(x)`. Degree `k` stands in place `k % 4` of its
+/// band, so that the parity of the place is that of the polynomial.
 const fn bands<const N: usize>(nodes: &[f64; N]) -> [[f64; 8]; N] {
     let mut result = [[0.0; 8]; N];
     let (low, high) = (N - 1, (3 * N - 2) / 2);

@@ -32,8 +32,8 @@ impl<T: Real> Stretch<T> {
         [Self { upper: middle, ..self }, Self { lower: middle, ..self }]
     }
 
-    /// Whether floats are dense enough for the outermost nodes to stay off the ends, by some 8 spacings: with fewer, their rounding
-    /// would show in how a singularity at the end converges.
+    /// Whether floats are dense enough for the outermost nodes to stay off the ends, by some 8 spacings: with fewer,
+    /// their rounding would show in how a singularity at the end converges.
     pub(super) fn has_room_for(self, outermost: T) -> bool {
         let [first, last] = self.pair(outermost);
         let room = T::from_parts(8, 0) * T::epsilon() * self.magnitude();

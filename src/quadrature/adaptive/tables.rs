@@ -1,4 +1,6 @@
-//! Nodes and weights on `[-1, 1]`, to 36 digits: the compiler rounds them once. Written by `proofs/gauss_kronrod.py`.
+//! Nodes and weights on `[-1, 1]`, to 36 digits: the compiler rounds them once.
+//!
+//! Written by `proofs/gauss_kronrod.py`.
 //!
 //! Nodes from the outermost inwards, the last one is 0; every second one from the second on is a Gauss node.
 

@@ -53,8 +53,8 @@ fn defect(nodes: &[BigInt], weights: &[BigInt], k: u32) -> BigInt {
     sum.abs()
 }
 
-/// Each decimal is off by at most `10^-36 / 2`: the powers `x^k`, whose weights make 2, by `k 10^-36` in all, the up to 61 weights by
-/// `31 10^-36`. One more covers the divisions, of `10^-45` each.
+/// Each decimal is off by at most `10^-36 / 2`: the powers `x^k`, whose weights make 2, by `k 10^-36` in all, the up
+/// to 61 weights by `31 10^-36`. One more covers the divisions, of `10^-45` each.
 fn slack(k: u32) -> BigInt {
     BigInt::from(k + 32) * BigInt::from(10).pow(PLACES - 36)
 }
@@ -107,11 +107,12 @@ fn legendre(k: u32, x: f64) -> f64 {
 
 const STRETCH: Stretch<f64> = Stretch { lower: -3.0, upper: 3.0 };
 
-/// A polynomial of either band has the coefficient 1 there: over a stretch of length 6 it differs by 6 times the ratio of the
-/// bands, 1 if it is in the upper, 0 if it is in the lower or below both.
+/// A polynomial of either band has the coefficient 1 there: over a stretch of length 6 it differs by 6 times the
+/// ratio of the bands, 1 if it is in the upper, 0 if it is in the lower or below both.
 #[test]
 fn the_bands_are_coefficients_of_the_legendre_series() {
-    // Some 3 k roundings in the recurrence, of numbers up to sqrt(2k + 1), weigh sqrt(2k + 1) and length 6 in four terms.
+    // Some 3 k roundings in the recurrence, of numbers up to sqrt(2k + 1), weigh sqrt(2k + 1) and length 6 in four
+    // terms.
     let rounding = |k: u32| 6.0 * 4.0 * f64::from(3 * k * (2 * k + 1)) * f64::EPSILON;
     for rule in Rule::ALL {
         let n = (rule.evaluations() as u32 - 1) / 2;

@@ -3,12 +3,12 @@
 
     tests/library/battery/generate.py > tests/library/battery/cases.txt
 
-Every parameter and end is a float of 24 bits, so that f32 and f64 integrate the same function over the same interval. Values are
-closed forms at 60 digits where there is one; the rest is mpmath's quadrature at 50 digits by two methods in
-two variables, which have to agree to 1e-34.
+Every parameter and end is a float of 24 bits, so that f32 and f64 integrate the same function over the same interval.
+Values are closed forms at 60 digits where there is one; the rest is mpmath's quadrature at 50 digits by two methods
+in two variables, which have to agree to 1e-34.
 
-A line: family, parameters, ends, break points in between (those of the family's definition), high and low part of the value (the
-nearest f64, and the nearest f64 to what is left).
+A line: family, parameters, ends, break points in between (those of the family's definition), high and low part of the
+value (the nearest f64, and the nearest f64 to what is left).
 """
 
 import random
@@ -25,8 +25,8 @@ def single(x):
 
 
 def agreed(f, points):
-    """The integral by tanh-sinh quadrature, which its singularity at 0 does not mind, and in the variable u = -ln |t|, where it has
-    none, by Gauss-Legendre quadrature."""
+    """The integral by tanh-sinh quadrature, which does not mind the singularity at 0, and in the variable
+    u = -ln |t|, where there is none, by Gauss-Legendre quadrature."""
     mp.dps = 50
     first = mp.quad(f, points, method="tanh-sinh", maxdegree=12)
     second = mpf(0)
@@ -59,11 +59,11 @@ for tenth in list(range(-9, 1)) + list(range(2, 27, 2)):  # 1: x^a ln(1/x)
     case("quadpack-1", [a], [ZERO, ONE], [], 1 / (1 + a) ** 2)
 for a in range(21):  # 2: 4^-a / ((x - pi/4)^2 + 16^-a)
     d = mpf(4) ** -a
-    case("quadpack-2", [d, QUARTER_PI], [ZERO, ONE], [QUARTER_PI], mp.atan((1 - QUARTER_PI) / d) + mp.atan(QUARTER_PI / d))
+    value = mp.atan((1 - QUARTER_PI) / d) + mp.atan(QUARTER_PI / d)
+    case("quadpack-2", [d, QUARTER_PI], [ZERO, ONE], [QUARTER_PI], value)
 for a in range(11):  # 3: cos(2^a sin x)
     s = mpf(2) ** a
     f = lambda x: mp.cos(s * mp.sin(x))
-    count = max(4, 2**a // 8)
     # pi J0(2^a) is the integral up to pi; what is beyond the float, or missing, is short and smooth.
     value = mp.pi * mp.besselj(0, s) + mp.quad(f, [mp.pi, PI])
     case("quadpack-3", [s], [ZERO, PI], [], value)

@@ -3,7 +3,7 @@
 //! `r` is rational, so `e^-r` is transcendental unless `r = 0` (Lindemann): no ties.
 
 use super::big::Ball;
-use super::enclosure::Enclosure;
+use super::enclosure::{Enclosure, Midpoint};
 use super::exact::{decide, exp_neg as exact_exp_neg};
 use super::fixed::{EXP_ERROR, exp_neg, mul_high, reciprocal, shift_right};
 use super::{normalised, settle};
@@ -23,12 +23,15 @@ pub(crate) fn gaussian<T: Real>(x: T, z: T, s: T) -> T {
         return T::zero();
     };
     let (y, k, t) = exp_neg(r);
-    settle(Enclosure::around(y, EXP_ERROR, -126 - k), |midpoint| {
-        decide(|fraction| {
-            let ratio = distance.ball(fraction).divided_by(&Ball::dyadic(m, -52, fraction));
-            let (y, k) = exact_exp_neg(ratio.times(&ratio).scaled(1, 11), t);
-            y.is_above(&Ball::dyadic(midpoint.m, midpoint.exponent + k, fraction))
-        })
+    settle(Enclosure::around(y, EXP_ERROR, -126 - k), |midpoint| is_above(distance, m, t, midpoint))
+}
+
+/// The comparison of `e^-r` with a midpoint, for a distance in units of `s = m 2^-52`, and `t = r / ln 2` of scale 116.
+pub(super) fn is_above(distance: Distance, m: u64, t: u128, midpoint: Midpoint) -> bool {
+    decide(|fraction| {
+        let ratio = distance.ball(fraction).divided_by(&Ball::dyadic(m, -52, fraction));
+        let (y, k) = exact_exp_neg(ratio.times(&ratio).scaled(1, 11), t);
+        y.is_above(&Ball::dyadic(midpoint.m, midpoint.exponent + k, fraction))
     })
 }
 
@@ -42,7 +45,7 @@ pub(super) struct Distance {
 
 impl Distance {
     /// `|x - z| 2^e`.
-    fn new<T: Real>(x: T, z: T, e: i32) -> Self {
+    pub(super) fn new<T: Real>(x: T, z: T, e: i32) -> Self {
         let (large, small) = if x.abs() >= z.abs() { (x, z) } else { (z, x) };
         let scaled = |x| {
             let (m, exponent) = normalised(x);

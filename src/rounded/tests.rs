@@ -190,6 +190,40 @@ fn the_comparison_of_exponential_and_logarithm_agrees_with_both_steps() {
     }
 }
 
+/// Distances of either sign, of numbers a few and of many bits apart, from 1/64 to 35 standard deviations.
+#[test]
+fn the_comparison_of_the_gaussian_agrees_with_both_steps() {
+    let mut random = Random(67);
+    let mut uniform = || (random.next() >> 11) as f64 / (1_u64 << 53) as f64;
+    for j in 0..160 {
+        let s = 0.37 + uniform();
+        let t = f64::from(1 + j % 35) - uniform() + 1.0 / 64.0;
+        // z beside the distance: comparable, huge, tiny, or 0.
+        let z = [1.0 + uniform(), 2e9 * uniform(), 1e-25 * uniform(), 0.0][j as usize % 4];
+        let x = if j % 8 < 4 { z + s * t } else { z - s * t };
+        let (m, e) = normalised(s);
+        let distance = gaussian::Distance::new(x, z, -52 - e);
+        let (d, exponent) = distance.cut();
+        let r = gaussian::half_square(d, exponent, m).expect("below 2^10");
+        let (_, _, t) = fixed::exp_neg(r);
+        assert_parted(gaussian(x, z, s), x, |midpoint| gaussian::is_above(distance, m, t, midpoint));
+    }
+}
+
+#[test]
+fn the_square_is_refused_from_1024_on() {
+    // t^2 / 2 in units of s = 2^-52 2^52: d = t 2^122, exponent -122.
+    for (t, below) in [(45_u128, true), (46, false), (64, false), (1 << 20, false), (1, true)] {
+        let shift = t.leading_zeros() as i32;
+        let square = gaussian::half_square(t << shift, -shift, 1 << 52);
+        assert_eq!(square.is_some(), below, "{t}");
+        if let Some(square) = square {
+            let exact = t * t << 116;
+            assert!(square <= exact && exact - square < 1 << 9, "{t}: {square}");
+        }
+    }
+}
+
 /// Subnormal results: the midpoints are few and the comparison sees them at other scales.
 #[test]
 fn the_comparison_agrees_on_subnormal_results() {

@@ -134,3 +134,31 @@ impl ExactSum {
         round_limbs(&quotient, LOWEST - 64, remainder != 0)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Ten limbs of ones, and one unit more.
+    #[test]
+    fn a_carry_runs_through_all_limbs() {
+        let mut sum = ExactSum::new();
+        for limb in 0..10 {
+            sum.add_many(f64::from_parts(1, LOWEST + 64 * limb), u64::MAX);
+        }
+        sum.add(f64::from_bits(1));
+        assert_eq!(sum.value::<f64>(), f64::from_parts(1, LOWEST + 640));
+    }
+
+    /// `(c + 1) / (2 c)` units, `c = 2^63 + 1`: above the midpoint of 0 and one unit by less than any bit kept.
+    #[test]
+    fn a_remainder_alone_breaks_a_tie() {
+        let (unit, count) = (f64::from_bits(1), (1 << 63) + 1);
+        let mut sum = ExactSum::new();
+        sum.add_many(unit, (1 << 62) + 1);
+        assert_eq!(sum.mean::<f64>(count), unit);
+        let mut tie = ExactSum::new();
+        tie.add_many(unit, 1 << 62);
+        assert_eq!(tie.mean::<f64>(1 << 63), 0.0);
+    }
+}

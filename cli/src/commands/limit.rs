@@ -99,10 +99,13 @@ impl Arguments {
                 Computed::closed_form(limit::closed_form(&sensor, self.weight.into()))
             }
             Method::ClosedForm if one => {
-                return Err(Failure::Usage("--tolerance: the closed form has an error of its own".to_owned()));
+                return Err(Failure::Usage(
+                    "--tolerance: the closed form has an error of its own".to_owned(),
+                ));
             }
             Method::ClosedForm => {
-                let methods = "--scans: there is no closed form for several scans; add --method adaptive or rigorous";
+                let methods =
+                    "--scans: there is no closed form for several scans; add --method adaptive or rigorous";
                 return Err(Failure::Usage(methods.to_owned()));
             }
             _ if one => self.integral(&sensor, tolerance).map_err(refused)?,
@@ -132,7 +135,9 @@ impl Arguments {
     ) -> Result<Computed<M::Float>, Error> {
         let weight = self.weight.into();
         if self.method == Method::Rigorous {
-            let rules = tolerance.map_or(Ok(Rigorous::default()), |relative| Rigorous::new(M::Float::zero(), relative))?;
+            let rules = tolerance.map_or(Ok(Rigorous::default()), |relative| {
+                Rigorous::new(M::Float::nearest(0.0), relative)
+            })?;
             return limit::rigorous(model, weight, &rules.with_limit(self.evaluations)?).map(Computed::from);
         }
         let rules = GaussKronrod::new().limit(self.evaluations);
@@ -185,7 +190,7 @@ impl<T: Real> From<Enclosure<T>> for Computed<T> {
     }
 }
 
-fn name<T>(status: mean_information::estimate::Status<T>) -> &'static str {
+fn name<T: Real>(status: mean_information::estimate::Status<T>) -> &'static str {
     use mean_information::estimate::Status;
     match status {
         Status::Converged => CONVERGED,

@@ -1,6 +1,7 @@
 //! The arguments and commands of `meaninfo`, one command per file. Each computes everything before it writes anything.
 
 mod converge;
+mod limit;
 mod map;
 mod metres;
 mod sweep;
@@ -27,6 +28,8 @@ pub enum Command {
     /// The mean information of a map against its resolution, by averaging cells 2 x 2, 4 x 4, ...; what lies beyond the
     /// map's edge is unknown.
     Sweep(sweep::Arguments),
+    /// What the mean information of one scan of a circular room tends to as cells shrink.
+    Limit(limit::Arguments),
     /// The mean information of grids of a circular room against the size of their cells: how they tend to the limit, and the
     /// proved bound on how far they are from it.
     Converge(converge::Arguments),
@@ -41,6 +44,7 @@ impl Command {
         match self {
             Self::Map(arguments) => arguments.run(),
             Self::Sweep(arguments) => arguments.run(),
+            Self::Limit(arguments) => arguments.run(),
             Self::Converge(arguments) => arguments.run(),
         }
     }

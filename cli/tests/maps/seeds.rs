@@ -13,7 +13,7 @@ mod properties;
 
 type Target = (&'static str, fn(&[u8]), fn() -> Vec<(&'static str, Vec<u8>)>);
 
-const TARGETS: [Target; 7] = [
+const TARGETS: [Target; 8] = [
     ("yaml", properties::yaml, yaml_seeds),
     ("pgm", properties::pgm, pgm_seeds),
     ("png", properties::png, png_seeds),

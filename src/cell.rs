@@ -191,3 +191,19 @@ pub fn information_from_log_odds<T: Real>(l: T) -> T {
 pub fn occupancy_from_log_odds<T: Real>(l: T) -> T {
     if l.is_nan() { l } else { rounded::occupancy_from_log_odds(l) }
 }
+
+/// The log-odds `l = ln(p / (1 - p))` of a cell of occupancy `p`, in nats.
+///
+/// Correctly rounded: ties cannot occur, since `e^l` is transcendental for every float `l != 0` (Lindemann).
+///
+/// Special cases: 0 at `p = 1/2`, `-inf` and `+inf` at 0 and 1; NaN for `p` outside `[0, 1]` or NaN.
+///
+/// ```
+/// use mean_information::cell::log_odds_from_occupancy;
+/// assert_eq!(log_odds_from_occupancy(0.25_f64), -1.0986122886681098);
+/// // One ulp above one half: 4 * 2^-53, and not the 0 of two logarithms' difference.
+/// assert_eq!(log_odds_from_occupancy(0.5 + f64::EPSILON / 2.0), 4.440892098500626e-16);
+/// ```
+pub fn log_odds_from_occupancy<T: Real>(p: T) -> T {
+    if in_unit_interval(p) { rounded::log_odds_from_occupancy(p) } else { T::nan() }
+}

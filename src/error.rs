@@ -31,6 +31,24 @@ pub enum Error {
         /// The allowed range, in words.
         allowed: &'static str,
     },
+    /// An item of a list outside its domain.
+    Item {
+        /// What it is of which item.
+        what: &'static str,
+        /// Which item, from 0.
+        index: usize,
+        /// Its value.
+        value: f64,
+        /// The allowed range, in words.
+        allowed: &'static str,
+    },
+    /// Two certain observations that contradict each other.
+    Contradiction {
+        /// Which one, from 0, says 0.
+        free: usize,
+        /// Which one, from 0, says 1.
+        occupied: usize,
+    },
     /// A cell of a map outside the domain of its encoding.
     Cell {
         /// Row, from 0.
@@ -94,6 +112,12 @@ impl fmt::Display for Error {
             Self::OutOfRange { what, value, allowed } => write!(f, "{what} is {value}, allowed is {allowed}"),
             Self::BreakPoint { index, value, allowed } => {
                 write!(f, "break point {index} is {value}, allowed is {allowed}")
+            }
+            Self::Item { what, index, value, allowed } => {
+                write!(f, "{what} {index} is {value}, allowed is {allowed}")
+            }
+            Self::Contradiction { free, occupied } => {
+                write!(f, "observations {free} and {occupied} are 0 and 1, which contradict each other")
             }
             Self::Cell { row, column, value, allowed } => {
                 write!(f, "cell at row {row}, column {column} is {value}, allowed is {allowed}")

@@ -33,7 +33,7 @@
 //! | [`tally`] | the exact, mergeable sums over a map | 2, 4 |
 //! | [`map`] | grids, cell encodings, pooling | |
 //! | [`sensor`] | inverse sensor models: what a range reading says of a point | 5 |
-//! | [`build`] | the maps that one reading gives of a circular room: polar and Cartesian | 4, 5 |
+//! | [`build`] | maps of a circular room, maps from scans, fusion, the expected map of a filter's particles | 4, 5 |
 //! | [`limit`] | what the mean information of one scan tends to as cells shrink | 6, 7 |
 //! | [`quadrature`] | integrals of functions of one variable | |
 //! | [`estimate`] | results with an estimated error, and results with a proved enclosure | |
@@ -97,6 +97,12 @@ pub mod book {
     pub mod convergence {}
     #[doc = include_str!("../docs/erratum.md")]
     pub mod erratum {}
+    #[doc = include_str!("../docs/scan.md")]
+    pub mod scan {}
+    #[doc = include_str!("../docs/fusion.md")]
+    pub mod fusion {}
+    #[doc = include_str!("../docs/expected.md")]
+    pub mod expected {}
     #[doc = include_str!("../docs/rounding.md")]
     pub mod rounding {}
     #[doc = include_str!("../docs/limit.md")]

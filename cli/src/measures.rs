@@ -38,7 +38,11 @@ impl Measures {
 
     /// Measures a grid.
     pub fn of_grid<E: Encoding>(grid: &Grid<E>) -> Self {
-        let tally = tally_of(grid);
+        Self::of_tally(grid, &tally_of(grid))
+    }
+
+    /// The measures of a grid whose sums are known.
+    pub fn of_tally<E: Encoding>(grid: &Grid<E>, tally: &Tally<E::Float>) -> Self {
         let observed = tally.observed() > 0;
         Self {
             width: grid.width(),
@@ -49,7 +53,7 @@ impl Measures {
             unknown: tally.unknown(),
             free: tally.free(),
             occupied: tally.occupied(),
-            doubt: Doubt::about(grid, &tally),
+            doubt: Doubt::about(grid, tally),
         }
     }
 

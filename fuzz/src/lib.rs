@@ -2,9 +2,11 @@
 //!
 //! `cargo test` replays the committed seeds on them, on stable.
 
+mod builders;
 mod integral;
 mod room;
 
+pub use builders::{expected, scan};
 pub use integral::integrate;
 pub use room::room;
 
@@ -12,7 +14,9 @@ use mean_information::map::encoding::{LogOdds, MrptLogOdds, Percent, Probability
 use mean_information::map::{Encoding, Geometry, Grid};
 use mean_information::{Error, Real, Tally};
 use mean_information_cli::maps::ros::{Description, read_image};
-use mean_information_cli::maps::{ArrayEncoding, Cells, Fault, Map, Mode, Options, Semantics, gridmap, npy};
+use mean_information_cli::maps::{
+    ArrayEncoding, Cells, Fault, Map, Mode, Options, Readable, Semantics, gridmap, npy,
+};
 use std::io::Cursor;
 
 /// Small, so that a claim is soon above it.
@@ -73,6 +77,34 @@ pub fn npy(bytes: &[u8]) {
         let options = Options { encoding, max_cells: MAX_CELLS, ..Options::default() };
         if let Some(map) = kept(npy::read(bytes, bytes.len() as u64, &options)) {
             checked(&map);
+        }
+    }
+}
+
+/// An array is read as a stack of particles' maps, and as weights, or refused.
+pub fn stack(bytes: &[u8]) {
+    for encoding in [None, Some(ArrayEncoding::LogOdds), Some(ArrayEncoding::Mrpt)] {
+        let options = Options { encoding, max_cells: MAX_CELLS, ..Options::default() };
+        kept(npy::read_stack(bytes, bytes.len() as u64, &options, Checked));
+    }
+    let options = Options { max_cells: MAX_CELLS, ..Options::default() };
+    if let Some(weights) = kept(npy::read_weights(bytes, bytes.len() as u64, &options)) {
+        assert!(weights.len() as u64 <= MAX_CELLS);
+    }
+}
+
+/// Checks the maps of a stack.
+struct Checked;
+
+impl npy::WithMaps for Checked {
+    type Output = ();
+
+    fn with<E: Readable>(self, maps: Vec<Grid<E>>) {
+        let cells: usize = maps.iter().map(|map| map.cells().len()).sum();
+        assert!(!maps.is_empty() && cells as u64 <= MAX_CELLS);
+        let size = [maps[0].width(), maps[0].height()];
+        for map in maps {
+            assert_eq!(checked_grid(&map), size);
         }
     }
 }

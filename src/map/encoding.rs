@@ -9,7 +9,7 @@ use core::fmt::Debug;
 use core::marker::PhantomData;
 
 /// What a stored cell means. Implement it to measure maps in a format of your own; then [`Encoding::occupancy`] must lie in
-/// `[0, 1]`, and the three methods that can be `None` must be so for the same values.
+/// `[0, 1]`, and the methods that can be `None` must be so for the same values.
 pub trait Encoding: Copy + Debug {
     /// What is stored per cell.
     type Stored: Copy + Debug + PartialEq + Send + Sync;
@@ -29,6 +29,11 @@ pub trait Encoding: Copy + Debug {
 
     /// The occupancy of the stored cell, 1/2 if unknown; `None` if the value is not allowed.
     fn occupancy(stored: Self::Stored) -> Option<Self::Float>;
+
+    /// The log-odds of the stored cell in nats, 0 if unknown; `None` if the value is not allowed.
+    fn log_odds(stored: Self::Stored) -> Option<Self::Float> {
+        Self::occupancy(stored).map(cell::log_odds_from_occupancy)
+    }
 
     /// Whether the value is allowed: whether [`Encoding::cell`] and [`Encoding::occupancy`] are `Some`.
     fn is_valid(stored: Self::Stored) -> bool {
@@ -92,6 +97,10 @@ impl<T: Real> Encoding for LogOdds<T> {
         (!l.is_nan()).then(|| cell::occupancy_from_log_odds(l))
     }
 
+    fn log_odds(l: T) -> Option<T> {
+        (!l.is_nan()).then_some(l)
+    }
+
     fn is_valid(l: T) -> bool {
         !l.is_nan()
     }
@@ -151,11 +160,9 @@ impl Encoding for Percent {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MrptLogOdds;
 
-impl MrptLogOdds {
-    /// The log-odds of being occupied, in nats; exact.
-    fn log_odds(stored: i8) -> f64 {
-        f64::from(stored.max(-127)) / -16.0
-    }
+/// The log-odds of being occupied that MRPT's byte means, in nats; exact.
+fn log_odds(stored: i8) -> f64 {
+    f64::from(stored.max(-127)) / -16.0
 }
 
 impl Encoding for MrptLogOdds {
@@ -172,11 +179,15 @@ impl Encoding for MrptLogOdds {
     }
 
     fn cell(stored: i8) -> Option<Cell<f64>> {
-        Cell::from_log_odds(Self::log_odds(stored)).ok()
+        Cell::from_log_odds(log_odds(stored)).ok()
     }
 
     fn occupancy(stored: i8) -> Option<f64> {
-        Some(cell::occupancy_from_log_odds(Self::log_odds(stored)))
+        Some(cell::occupancy_from_log_odds(log_odds(stored)))
+    }
+
+    fn log_odds(stored: i8) -> Option<f64> {
+        Some(log_odds(stored))
     }
 
     fn tally(cells: &[i8]) -> Tally<f64> {

@@ -15,11 +15,17 @@ use super::fixed::{
 pub(super) fn from_occupancy(m: u64, e: i32) -> (Enclosure, Enclosure) {
     let n = -e;
     if let Some(d) = distance_from_unknown(m, n) {
-        let (value, exponent) = information_series(d, n);
-        return near_unknown(value, exponent);
+        return beside_unknown(d, n);
     }
     let (m, n) = minor(m, n);
     if n <= 60 { with_two_logarithms(m, n) } else { with_small_occupancy(m, n) }
+}
+
+/// `H(p)` and `I(p)` at `|2p - 1| = d 2^-n < 2^-4`, `d < 2^53`.
+#[inline]
+pub(super) fn beside_unknown(d: u64, n: i32) -> (Enclosure, Enclosure) {
+    let (value, exponent) = information_series(d, n);
+    near_unknown(value, exponent)
 }
 
 /// `|2p - 1| = d 2^-n` for `p = m 2^-n`, if it is below `2^-4`; exact.
@@ -137,10 +143,10 @@ fn with_small_odds(y: u128, k: i32, inverse: u128, t: u128) -> (Enclosure, Enclo
     from_product(value, 2 * LOG_1P_OVER_ERROR + (value >> 76), k + 111)
 }
 
-/// `1 / (1 + e^-l)` at log-odds `±l`, `l = m 2^e`, `0 < l < 2^10`.
+/// `1 / (1 + e^-l)` at log-odds `±l`, `0 <= l < 2^10` of scale 117, cut by less than one unit.
 #[inline]
-pub(super) fn occupancy(m: u64, e: i32, negative: bool) -> Enclosure {
-    let (y, k, _) = exp_neg(scale_117(m, e));
+pub(super) fn occupancy(l: u128, negative: bool) -> Enclosure {
+    let (y, k, _) = exp_neg(l);
     let inverse = reciprocal((1 << 126) + shift_right(y, k));
     let q = mul_high(y << 1, inverse << 1);
     if negative {

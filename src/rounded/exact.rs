@@ -84,7 +84,7 @@ pub(super) fn exp_neg(l: Ball, t: u128) -> (Ball, i32) {
 }
 
 /// The same for `l = m 2^e < 2^10`.
-fn exp_neg_dyadic(m: u64, e: i32, fraction: usize) -> (Ball, i32) {
+pub(super) fn exp_neg_dyadic(m: u64, e: i32, fraction: usize) -> (Ball, i32) {
     let (_, _, t) = fixed_exp_neg(scale_117(m, e));
     exp_neg(Ball::dyadic(m, e, fraction), t)
 }

@@ -9,6 +9,7 @@
 //! error is a discarded fraction. The proof is the chapter [`rounding`](crate::book::rounding); `proofs/` has it
 //! machine-checked.
 
+mod angle;
 mod big;
 #[rustfmt::skip] // as `proofs/constants.sollya` writes it
 mod constants;
@@ -18,12 +19,22 @@ mod enclosure;
 mod exact;
 pub(crate) mod extended;
 mod fixed;
+mod fusion;
 mod gaussian;
+mod log_odds;
+pub(crate) mod mean;
+mod natural;
 
+pub(crate) use angle::{cos_sin, turns};
 pub(crate) use distance::{Coordinate, distance, multiple};
 pub(crate) use enclosure::{Enclosure, round_integer, round_limbs};
 pub(crate) use fixed::{horner, mul_high, reciprocal, shift_right};
+pub(crate) use fusion::fused;
 pub(crate) use gaussian::gaussian;
+pub(crate) use log_odds::{
+    LOG_ODDS_SCALE, fixed_log_odds, log_odds_from_occupancy, occupancy_from_fixed_log_odds, round_log_odds,
+};
+pub(crate) use natural::{Leading, Natural, leading, quotient};
 
 use crate::real::Real;
 use enclosure::{Midpoint, Rounded};
@@ -119,7 +130,7 @@ pub(crate) fn occupancy_from_log_odds<T: Real>(l: T) -> T {
         return if negative { T::zero() } else { T::one() };
     }
     let (m, e) = normalised(l);
-    let value = enclose::occupancy(m, e, negative);
+    let value = enclose::occupancy(fixed::scale_117(m, e), negative);
     settle(value, |midpoint| exact::occupancy(m, e, negative, midpoint))
 }
 

@@ -2,7 +2,8 @@
 //! (Kulisch's long accumulator, without sign).
 
 use crate::real::Real;
-use crate::rounded::round_limbs;
+use crate::rounded::mean::Fixed;
+use crate::rounded::{round_limbs, shift_right};
 #[cfg(feature = "serde")]
 use core::cmp::Ordering;
 
@@ -58,12 +59,21 @@ impl ExactSum {
     pub fn add_many<T: Real>(&mut self, x: T, count: u64) {
         assert!(x >= T::zero() && x <= T::one(), "an exact sum takes numbers in [0, 1], not {x}");
         let (m, e) = x.parts();
-        let place = (e - LOWEST) as usize;
+        self.add_at((e - LOWEST) as usize, u128::from(m) * u128::from(count));
+    }
+
+    /// Adds a number in `[0, 1]`, cut below the smallest positive `T`.
+    pub(super) fn add_fixed<T: Real>(&mut self, Fixed { value, exponent }: Fixed) {
+        let exponent_kept = exponent.max(T::MIN_EXPONENT);
+        self.add_at((exponent_kept - LOWEST) as usize, shift_right(value, exponent_kept - exponent));
+    }
+
+    /// Adds `n` units of `2^(LOWEST + place)`.
+    #[inline]
+    fn add_at(&mut self, place: usize, n: u128) {
         let (limb, bit) = (place / 64, place % 64);
-        // m < 2^53 and count < 2^64: the product has 117 bits, shifted by bit at most 180.
-        let product = u128::from(m) * u128::from(count);
-        let low = product << bit;
-        let high = if bit == 0 { 0 } else { (product >> (128 - bit)) as u64 };
+        let low = n << bit;
+        let high = if bit == 0 { 0 } else { (n >> (128 - bit)) as u64 };
         self.carry_into(limb, [low as u64, (low >> 64) as u64, high]);
     }
 

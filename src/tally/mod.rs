@@ -12,6 +12,7 @@ pub use exact_sum::ExactSum;
 
 use crate::cell::{Cell, State};
 use crate::real::Real;
+use crate::rounded::mean::Both;
 use core::marker::PhantomData;
 
 /// The sums over the cells of a map: entropy, information, and how many cells are unknown, free and occupied.
@@ -76,13 +77,24 @@ impl<T: Real> Tally<T> {
     /// If the tally would hold more than `2^64 - 1` cells.
     pub fn add_many(&mut self, cell: Cell<T>, count: u64) {
         assert!(self.cells().checked_add(count).is_some(), "a tally holds at most 2^64 - 1 cells");
-        match cell.state() {
+        self.count(cell.state(), count);
+        self.entropy.add_many(cell.entropy(), count);
+        self.information.add_many(cell.information(), count);
+    }
+
+    /// Counts one cell whose entropy and information are known beyond the precision of a float.
+    pub(crate) fn add_fixed(&mut self, state: State, (entropy, information): Both) {
+        self.count(state, 1);
+        self.entropy.add_fixed::<T>(entropy);
+        self.information.add_fixed::<T>(information);
+    }
+
+    fn count(&mut self, state: State, count: u64) {
+        match state {
             State::Unknown => self.unknown += count,
             State::Free => self.free += count,
             State::Occupied => self.occupied += count,
         }
-        self.entropy.add_many(cell.entropy(), count);
-        self.information.add_many(cell.information(), count);
     }
 
     /// Counts the cells of another tally.

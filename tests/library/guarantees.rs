@@ -4,9 +4,11 @@ use mean_information::build::{CartesianRoom, PolarRoom};
 use mean_information::interval::Interval;
 use mean_information::quadrature::rigorous::Rigorous;
 use mean_information::sensor::{GaussianSensor, InverseSensorModel};
-use mean_information::{ExactSum, Tally, cell, elementary, limit, map};
+use mean_information::{ExactSum, Tally, build, cell, elementary, limit, map};
 use std::fs;
 use std::path::Path;
+
+type Particles<'a> = build::Hypotheses<'a, map::encoding::LogOdds<f64>>;
 
 /// How a bound is known.
 #[derive(Clone, Copy, Debug)]
@@ -40,6 +42,7 @@ pub(crate) fn guarantees() -> Vec<Guarantee> {
         cell::entropy_from_log_odds::<f64> => "cell::entropy_from_log_odds", 0.5, Proved;
         cell::information_from_log_odds::<f64> => "cell::information_from_log_odds", 0.5, Proved;
         cell::occupancy_from_log_odds::<f64> => "cell::occupancy_from_log_odds", 0.5, Proved;
+        cell::log_odds_from_occupancy::<f64> => "cell::log_odds_from_occupancy", 0.5, Proved;
         ExactSum::value::<f64> => "ExactSum::value", 0.5, Proved;
         ExactSum::mean::<f64> => "ExactSum::mean", 0.5, Proved;
         Tally::<f64>::entropy => "Tally::entropy", 0.5, Proved;
@@ -48,6 +51,10 @@ pub(crate) fn guarantees() -> Vec<Guarantee> {
         map::Grid::<map::encoding::Percent>::pooled => "Grid::pooled", 0.5, Proved;
         GaussianSensor::<f64>::occupancy => "GaussianSensor::occupancy", 0.5, Proved;
         GaussianSensor::<f64>::reach => "GaussianSensor::reach", 2.0, Proved;
+        build::fuse::<f64> => "build::fuse", 0.5, Proved;
+        build::weighted_mean::<f64> => "build::weighted_mean", 0.5, Proved;
+        build::ExpectedMap::<f64>::grid => "ExpectedMap::grid", 0.5, Proved;
+        Particles::log_linear_pool => "Hypotheses::log_linear_pool", 0.5, Proved;
         limit::closed_form::<f64> => "limit::closed_form", 0.501, Proved;
         PolarRoom::<GaussianSensor<f64>>::distance => "PolarRoom::distance", 0.5, Proved;
         CartesianRoom::<GaussianSensor<f64>>::distance => "CartesianRoom::distance", 0.5, Proved;

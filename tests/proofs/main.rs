@@ -12,11 +12,12 @@ use std::collections::BTreeMap;
 use std::fs;
 
 /// Functions without a script of their own: they define the translation (`expression.rs`), only branch, or lose nothing.
-const UNQUOTED: [&str; 13] = [
+const UNQUOTED: [&str; 14] = [
     "mul_high",
     "shift_right",
     "horner",
     "from_occupancy",
+    "beside_unknown",
     "distance_from_unknown",
     "is_small",
     "from_log_odds",

@@ -1,6 +1,7 @@
 //! The arguments and commands of `meaninfo`, one command per file. Each computes everything before it writes anything.
 
 mod converge;
+mod emmi;
 mod limit;
 mod map;
 mod metres;
@@ -33,6 +34,8 @@ pub enum Command {
     /// The mean information of grids of a circular room against the size of their cells: how they tend to the limit, and the
     /// proved bound on how far they are from it.
     Converge(converge::Arguments),
+    /// The expected map of a particle filter's weighted maps, its mean information (EMMI), and that of each particle.
+    Emmi(emmi::Arguments),
 }
 
 impl Command {
@@ -46,6 +49,7 @@ impl Command {
             Self::Sweep(arguments) => arguments.run(),
             Self::Limit(arguments) => arguments.run(),
             Self::Converge(arguments) => arguments.run(),
+            Self::Emmi(arguments) => arguments.run(),
         }
     }
 }

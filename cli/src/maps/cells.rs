@@ -1,7 +1,7 @@
 //! A map's cells, whatever their encoding.
 
-use mean_information::map::Grid;
 use mean_information::map::encoding::{LogOdds, MrptLogOdds, Percent, Probability};
+use mean_information::map::{Encoding, Grid};
 
 /// A map's cells in the encoding they were stored in.
 #[derive(Clone, Debug)]
@@ -18,6 +18,31 @@ pub enum Cells {
     LogOdds32(Grid<LogOdds<f32>>),
     /// Log-odds in double precision.
     LogOdds64(Grid<LogOdds<f64>>),
+}
+
+/// An encoding that files come in.
+pub trait Readable: Encoding {
+    /// A grid in this encoding as a map's cells.
+    fn cells(grid: Grid<Self>) -> Cells;
+}
+
+macro_rules! readable {
+    ($($encoding:ty => $variant:ident,)*) => {
+        $(impl Readable for $encoding {
+            fn cells(grid: Grid<Self>) -> Cells {
+                Cells::$variant(grid)
+            }
+        })*
+    };
+}
+
+readable! {
+    Percent => Percent,
+    MrptLogOdds => Mrpt,
+    Probability<f32> => Probability32,
+    Probability<f64> => Probability64,
+    LogOdds<f32> => LogOdds32,
+    LogOdds<f64> => LogOdds64,
 }
 
 /// Runs the same code on a reference to the grid of `$cells`, whatever its encoding.

@@ -9,7 +9,8 @@ mod problem;
 pub mod ros;
 mod size;
 
-pub use cells::{Cells, with_grid};
+pub use cells::{Cells, Readable, with_grid};
+pub(crate) use options::positive;
 pub use options::{ArrayEncoding, MAX_CELLS, Mode, Options, Semantics};
 pub(crate) use problem::one_line;
 pub use problem::{Fault, Problem};
@@ -42,11 +43,10 @@ pub fn read(path: &Path, options: &Options) -> Result<Map, Problem> {
     }
     let name = path.file_name().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     let is = |endings: &[&str]| endings.iter().any(|&ending| name.ends_with(ending));
-    let file = open(path)?;
+    let (file, length) = open(path)?;
     let mut map = if is(&[".yaml", ".yml"]) {
         ros::read(path, file, options)?
     } else if is(&[".npy"]) {
-        let length = file.metadata().map_err(|error| Fault::from(error).in_file(path))?.len();
         npy::read(file, length, options).map_err(|fault| fault.in_file(path))?
     } else if is(&[".gridmap", ".gridmap.gz"]) {
         let input = BufReader::with_capacity(size::CHUNK, file);
@@ -63,11 +63,33 @@ pub fn read(path: &Path, options: &Options) -> Result<Map, Problem> {
     Ok(map)
 }
 
+/// Reads the maps of a filter's particles from the `.npy` array at `path`, and does with them what is to be done.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_particles<W: npy::WithMaps>(
+    path: &Path,
+    options: &Options,
+    what: W,
+) -> Result<W::Output, Problem> {
+    let (file, length) = open(path)?;
+    npy::read_stack(file, length, options, what).map_err(|fault| fault.in_file(path))
+}
+
+/// Reads the weights of particles from the `.npy` array at `path`.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_weights(path: &Path, options: &Options) -> Result<Vec<f64>, Problem> {
+    let (file, length) = open(path)?;
+    npy::read_weights(file, length, options).map_err(|fault| fault.in_file(path))
+}
+
 /// The endings of map files, for messages.
 const ENDINGS: &str = ".yaml, .yml, .npy, .gridmap and .gridmap.gz";
 
-/// Opens a regular file; a pipe could hang, a directory reads as nonsense.
-fn open(path: &Path) -> Result<File, Problem> {
+/// Opens a regular file, of the length given; a pipe could hang, a directory reads as nonsense.
+fn open(path: &Path) -> Result<(File, u64), Problem> {
     let fault = |error| Fault::from(error).in_file(path);
     let kind = fs::metadata(path).map_err(fault)?;
     if kind.is_dir() {
@@ -76,5 +98,7 @@ fn open(path: &Path) -> Result<File, Problem> {
     if !kind.is_file() {
         return Err(Problem::new(path, "is not a regular file; allowed are files on disk"));
     }
-    File::open(path).map_err(fault)
+    let file = File::open(path).map_err(fault)?;
+    let length = file.metadata().map_err(fault)?.len();
+    Ok((file, length))
 }

@@ -18,6 +18,8 @@ pub enum Value {
     /// A number that was computed, `None` if there is none. It has a twin, its key with `_hex` appended, that holds the
     /// same number as a hexadecimal float.
     Computed(Option<Number>),
+    /// Numbers that were computed, `None` where there is none, with a twin as above.
+    Numbers(Vec<Option<Number>>),
     /// Sentences.
     Texts(Vec<String>),
     /// Several records.
@@ -38,6 +40,7 @@ impl Serialize for Value {
             Self::Flag(flag) => flag.serialize(serializer),
             Self::Given(number) => number.serialize(serializer),
             Self::Computed(number) => number.serialize(serializer),
+            Self::Numbers(numbers) => numbers.serialize(serializer),
             Self::Texts(texts) => texts.serialize(serializer),
             Self::Records(records) => records.serialize(serializer),
             Self::Record(record) => record.serialize(serializer),
@@ -50,8 +53,13 @@ impl Serialize for Record {
         let mut map = serializer.serialize_map(None)?;
         for (key, value) in &self.0 {
             map.serialize_entry(key, value)?;
-            if let Value::Computed(number) = value {
-                map.serialize_entry(&twin(key), &number.map(Number::hex))?;
+            match value {
+                Value::Computed(number) => map.serialize_entry(&twin(key), &number.map(Number::hex))?,
+                Value::Numbers(numbers) => {
+                    let hex: Vec<_> = numbers.iter().map(|number| number.map(Number::hex)).collect();
+                    map.serialize_entry(&twin(key), &hex)?;
+                }
+                _ => {}
             }
         }
         map.end()
@@ -69,7 +77,8 @@ pub(super) fn to_json(value: &Value) -> String {
     serde_json::to_string_pretty(value).unwrap_or_default() + "\n"
 }
 
-/// A header and one line per record. What is unknown is an empty field; sentences are joined by `; `.
+/// A header and one line per record. What is unknown is an empty field; sentences and numbers of a list are joined by
+/// `; `.
 pub(super) fn to_csv(records: &[Record]) -> String {
     let mut lines = records.iter().map(csv_fields).peekable();
     let header = lines.peek().map(|fields| fields.iter().map(|(key, _)| key.clone()).collect::<Vec<_>>());
@@ -92,16 +101,25 @@ fn csv_fields(record: &Record) -> Vec<(String, String)> {
             Value::Flag(flag) => flag.to_string(),
             Value::Given(number) => number.map(|x| Number::Double(x).to_string()).unwrap_or_default(),
             Value::Computed(number) => number.map(|x| x.to_string()).unwrap_or_default(),
+            Value::Numbers(numbers) => joined(numbers, |x| x.to_string()),
             Value::Texts(texts) => texts.join("; "),
             // A line holds no lines.
             Value::Records(_) | Value::Record(_) => continue,
         };
         fields.push(((*key).to_owned(), text));
-        if let Value::Computed(number) = value {
-            fields.push((twin(key), number.map(Number::hex).unwrap_or_default()));
+        match value {
+            Value::Computed(number) => fields.push((twin(key), number.map(Number::hex).unwrap_or_default())),
+            Value::Numbers(numbers) => fields.push((twin(key), joined(numbers, Number::hex))),
+            _ => {}
         }
     }
     fields
+}
+
+/// Numbers in one field, separated by `; `, those that are missing being empty.
+fn joined(numbers: &[Option<Number>], text: fn(Number) -> String) -> String {
+    let texts: Vec<String> = numbers.iter().map(|number| number.map(text).unwrap_or_default()).collect();
+    texts.join("; ")
 }
 
 #[cfg(test)]

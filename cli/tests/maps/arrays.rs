@@ -124,7 +124,7 @@ fn what_is_no_map_is_refused() {
         (npy("'|O'", false, "(2, 3)", &six), "Python objects"),
         (npy("'<c16'", false, "(1, 3)", &six), "complex"),
         (npy("'<f8'", false, "(1, 2, 3)", &six), "3 dimensions"),
-        (npy("'<f8'", false, "(6,)", &six), "1 dimensions"),
+        (npy("'<f8'", false, "(6,)", &six), "1 dimension"),
         (npy("[('p', '<f8')]", false, "(2, 3)", &six), "structured"),
         (npy("'<f8'", false, "(2147483648, 2147483648)", &six), "more than the limit of 268435456"),
         (npy("'<f8'", false, "(100000, 1000)", &six), "claims 800000128"),

@@ -13,7 +13,7 @@ mod properties;
 
 type Target = (&'static str, fn(&[u8]), fn() -> Vec<(&'static str, Vec<u8>)>);
 
-const TARGETS: [Target; 8] = [
+const TARGETS: [Target; 11] = [
     ("yaml", properties::yaml, yaml_seeds),
     ("pgm", properties::pgm, pgm_seeds),
     ("png", properties::png, png_seeds),
@@ -22,6 +22,9 @@ const TARGETS: [Target; 8] = [
     ("grid", properties::grid, grid_seeds),
     ("room", properties::room, room_seeds),
     ("integrate", properties::integrate, integrate_seeds),
+    ("stack", properties::stack, stack_seeds),
+    ("scan", properties::scan, scan_seeds),
+    ("expected", properties::expected, expected_seeds),
 ];
 
 fn folder(target: &str) -> PathBuf {
@@ -212,5 +215,52 @@ fn integrate_seeds() -> Vec<(&'static str, Vec<u8>)> {
         ("vanishing", of([11, 1, 2, 200], &[1e-300, 1e-6, 1.0, 1.0000000000000002, 0.25, 3.0])),
         ("out_of_order", of([3, 0, 3, 200], &[0.0, 0.5, 3.0, f64::NAN, -1.5, 0.25])),
         ("no_tolerance", of([3, 0, 2, 200], &[-1.0, 1e-30, 3.0, 4.0])),
+    ]
+}
+
+fn stack_seeds() -> Vec<(&'static str, Vec<u8>)> {
+    let doubles: Vec<u8> = [0.25, 0.5, 1.0, 0.0, 0.75, 0.5].into_iter().flat_map(f64::to_le_bytes).collect();
+    vec![
+        ("doubles", npy("'<f8'", false, "(3, 1, 2)", &doubles)),
+        ("by_columns", npy("'>f8'", true, "(1, 3, 2)", &doubles)),
+        ("bytes", npy("'|i1'", true, "(3, 2, 2)", &[0, 100, 255, 50, 7, 128, 93, 1, 2, 3, 4, 5])),
+        ("weights", npy("'<f8'", false, "(6,)", &doubles)),
+        ("no_cells", npy("'<f8'", false, "(18446744073709551615, 0, 2)", &[])),
+        ("claims_more", npy("'<f8'", false, "(4294967296, 4294967296, 2)", &doubles)),
+    ]
+}
+
+/// Multiples of 1/64 as the target reads them.
+fn in_64ths(numbers: &[f64]) -> Vec<u8> {
+    numbers.iter().flat_map(|x| ((x * 64.0) as i16).to_le_bytes()).collect()
+}
+
+fn scan_seeds() -> Vec<(&'static str, Vec<u8>)> {
+    let two_scans: [f64; 18] =
+        [0.25, 0.125, 0.5, 0.5, 0.0, 8.0, 0.0, 2.0, 1.5, 0.0, 0.75, 0.5, 0.25, 8.0, 0.5, 1.0, -0.5, 3.0];
+    let any: Vec<u8> = two_scans.iter().flat_map(|x| x.to_le_bytes()).collect();
+    let corners = [0.25, 0.5, 0.25, 0.25, 0.0, 8.0, 0.0, 2.0];
+    let far: Vec<u8> =
+        [0.05, 0.1, 1e300, 1.0, 1.0, 9e5, 0.7, 8e5].iter().flat_map(|x: &f64| x.to_le_bytes()).collect();
+    vec![
+        ("two_scans", [&[0, 2], &in_64ths(&two_scans)[..]].concat()),
+        ("two_scans_of_steps", [&[2, 2], &in_64ths(&two_scans)[..]].concat()),
+        ("any_bits", [&[1, 2], &any[..]].concat()),
+        ("along_a_line", [&[2, 1], &in_64ths(&corners)[..]].concat()),
+        ("far", [&[1, 1], &far[..]].concat()),
+    ]
+}
+
+fn expected_seeds() -> Vec<(&'static str, Vec<u8>)> {
+    let maps = |write: fn(&[f64]) -> Vec<u8>| {
+        let one = |weight, offset, cells: &[f64]| [write(&[weight]), vec![offset], write(cells)].concat();
+        [one(0.5, 0, &[0.25, 0.5, 0.75]), one(1.5, 254, &[0.5, 0.5, 0.125]), one(0.0, 1, &[0.0, 0.5, 0.5])]
+            .concat()
+    };
+    let any = |numbers: &[f64]| numbers.iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<u8>>();
+    vec![
+        ("aligned", [&[2, 0], &maps(in_64ths)[..]].concat()),
+        ("any_bits", [&[2, 1], &maps(any)[..]].concat()),
+        ("bad_weight", [&[0, 1], &any(&[f64::NAN])[..], &[0], &any(&[0.25])[..]].concat()),
     ]
 }

@@ -40,8 +40,8 @@ pub(super) struct Header {
     pub element: Element,
     pub big_endian: bool,
     pub fortran_order: bool,
-    /// Rows and columns.
-    pub shape: [u64; 2],
+    /// How many in each dimension.
+    pub shape: Vec<u64>,
     /// The bytes before the data.
     pub length: u64,
 }
@@ -105,14 +105,31 @@ impl Header {
             return Err(malformed("the keys descr, fortran_order and shape"));
         };
         let (element, big_endian) = element(descr)?;
-        let [rows, columns] = shape[..] else {
-            return Err(Fault::new(format!(
-                "holds an array of {} dimensions, {shape:?}; allowed are 2, rows and columns",
-                shape.len()
-            )));
-        };
-        Ok(Self { element, big_endian, fortran_order, shape: [rows, columns], length })
+        Ok(Self { element, big_endian, fortran_order, shape, length })
     }
+
+    /// The shape of an array that must have `N` dimensions, which are `what`.
+    pub(super) fn dimensions<const N: usize>(&self, what: &str) -> Result<[u64; N], Fault> {
+        let [found, allowed] = [self.shape.len(), N].map(in_words);
+        let shape = <[u64; N]>::try_from(&self.shape[..]);
+        let shown = self.shape.iter().map(u64::to_string).collect::<Vec<_>>().join(" x ");
+        shape.map_err(|_| {
+            Fault::new(format!("holds an array of {found} ({shown}); allowed is {allowed}: {what}"))
+        })
+    }
+
+    /// Refuses a file that is not exactly as long as an array of so many elements.
+    pub(super) fn check_length(&self, length: u64, elements: u64) -> Result<(), Fault> {
+        let claimed = u128::from(self.length) + u128::from(elements) * self.element.bytes() as u128;
+        if claimed == u128::from(length) {
+            return Ok(());
+        }
+        Err(Fault::new(format!("has {length} bytes, its header claims {claimed}")))
+    }
+}
+
+fn in_words(dimensions: usize) -> String {
+    if dimensions == 1 { "1 dimension".to_owned() } else { format!("{dimensions} dimensions") }
 }
 
 fn malformed(allowed: &str) -> Fault {
@@ -225,7 +242,7 @@ mod tests {
             element: Element::Float64,
             big_endian: false,
             fortran_order: true,
-            shape: [3, 14],
+            shape: vec![3, 14],
             length: 128,
         };
         for text in [
@@ -248,14 +265,17 @@ mod tests {
             ("'<f2'", "(3, 14)", "floats other"),
             ("'<U5'", "(3, 14)", "no numbers"),
             ("[('p', '<f8')]", "(3, 14)", "structured"),
-            ("'<f8'", "(3, 14, 15)", "3 dimensions"),
-            ("'<f8'", "(3,)", "1 dimensions"),
+            ("'<f8'", "(3, 14, 15)", "3 dimensions (3 x 14 x 15)"),
+            ("'<f8'", "(3,)", "1 dimension (3)"),
             ("'<f8'", "()", "0 dimensions"),
             ("'<f8'", "(3, -14)", "malformed"),
             ("'<f8'", "(3, 99999999999999999999)", "malformed"),
         ] {
             let text = format!("{{'descr': {descr}, 'fortran_order': False, 'shape': {shape}, }}");
-            let refused = parse(&text).unwrap_err();
+            let shape = parse(&text).and_then(|header| {
+                header.dimensions::<2>("rows and columns").map_err(|fault| fault.to_string())
+            });
+            let refused = shape.unwrap_err();
             assert!(refused.contains(words) && refused.contains("allowed"), "{text}: {refused}");
         }
     }

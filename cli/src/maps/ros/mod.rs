@@ -27,7 +27,7 @@ const SAVED_UNKNOWN: u8 = 205;
 pub(super) fn read(path: &Path, file: File, options: &Options) -> Result<Map, Problem> {
     let description = Description::read(file, options.semantics).map_err(|fault| fault.in_file(path))?;
     let image = path.parent().unwrap_or(Path::new("")).join(&description.image);
-    let file = super::open(&image)?;
+    let (file, _) = super::open(&image)?;
     let mut map = read_image(BufReader::with_capacity(super::size::CHUNK, file), &description, options)
         .map_err(|fault| fault.in_file(&image))?;
     map.files.push(image);

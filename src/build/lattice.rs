@@ -1,0 +1,178 @@
+//! Places in the plane as integers: the lattice of `2^-28` of a cell, on which everything is exact.
+
+use super::direction::Direction;
+use crate::real::Real;
+use crate::rounded::{Coordinate, distance};
+
+/// Units of a cell's side, as an exponent of two.
+pub(super) const FRACTION: u32 = 28;
+/// The same as a number.
+const UNITS: f64 = (1_u64 << FRACTION) as f64;
+/// Places stay below this in magnitude: `2^33` cells, so that differences fit 62 bits and their products 124.
+const END: u64 = 1 << (33 + FRACTION);
+
+/// The lattice of a grid with cells of this side in metres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Lattice {
+    resolution: f64,
+}
+
+/// A point of the lattice: x and y.
+pub(super) type Point = [i64; 2];
+
+impl Lattice {
+    /// For a resolution that is positive and finite.
+    pub(super) fn new(resolution: f64) -> Self {
+        Self { resolution }
+    }
+
+    pub(super) fn resolution(self) -> f64 {
+        self.resolution
+    }
+
+    /// The lattice point nearest to a coordinate in metres, ties to even; `None` beyond [`END`].
+    pub(super) fn nearest(self, x: f64) -> Option<i64> {
+        let (m, e) = x.parts();
+        self.signed(u128::from(m), e, x < 0.0)
+    }
+
+    /// The lattice point nearest to the one at `distance` metres from `start`; `None` beyond [`END`].
+    pub(super) fn along(self, start: Point, direction: Direction, distance: f64) -> Option<Point> {
+        let (m, e) = distance.parts();
+        let coordinate = |start: i64, unit: i64| {
+            let product = u128::from(m) * u128::from(unit.unsigned_abs());
+            let moved = start + self.signed(product, e - 62, unit < 0)?;
+            (moved.unsigned_abs() <= END).then_some(moved)
+        };
+        let [cos, sin] = direction.units();
+        Some([coordinate(start[0], cos)?, coordinate(start[1], sin)?])
+    }
+
+    /// `±m 2^e` metres in lattice units, rounded to nearest.
+    fn signed(self, m: u128, e: i32, negative: bool) -> Option<i64> {
+        let (divisor, exponent) = self.resolution.parts();
+        let magnitude =
+            quotient(m, e + FRACTION as i32 - exponent, divisor).filter(|&q| q <= u128::from(END))?;
+        Some(if negative { -(magnitude as i64) } else { magnitude as i64 })
+    }
+
+    /// The distance in metres of a point from the centre of a cell: the nearest float, ties to even.
+    pub(super) fn distance_to_centre(self, from: Point, cell: [i64; 2]) -> f64 {
+        let [x, y] = [0, 1].map(|k| {
+            let centre = (cell[k] << FRACTION) + (1 << (FRACTION - 1));
+            let offset = centre - from[k];
+            Coordinate::new(offset >> FRACTION, (offset & ((1 << FRACTION) - 1)) as f64 / UNITS)
+        });
+        distance(self.resolution, 0, x, y)
+    }
+}
+
+/// `n 2^e / divisor` rounded to nearest, ties to even; `None` from about `2^75`. `n` below `2^127`, `divisor` below
+/// `2^53`.
+fn quotient(n: u128, e: i32, divisor: u64) -> Option<u128> {
+    if n == 0 {
+        return Some(0);
+    }
+    let divisor = u128::from(divisor);
+    let (n, divisor) = if e >= 0 {
+        if e.unsigned_abs() > n.leading_zeros() {
+            return None;
+        }
+        (n << e, divisor)
+    } else {
+        if e.unsigned_abs() >= divisor.leading_zeros() {
+            // The divisor is 2^127 or more times what it was, above 2 n.
+            return Some(0);
+        }
+        (n, divisor << e.unsigned_abs())
+    };
+    let (whole, rest) = (n / divisor, n % divisor);
+    let up = rest > divisor - rest || rest == divisor - rest && whole & 1 == 1;
+    Some(whole + u128::from(up))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use num_bigint::BigInt;
+    use proptest::prelude::*;
+
+    /// `x / resolution 2^28` twice, as a fraction: the nearest integer, ties to even.
+    fn nearest(x: f64, resolution: f64) -> BigInt {
+        let big = |x: f64| {
+            let (m, e) = x.parts();
+            BigInt::from(m) << (e + 1074)
+        };
+        let (n, d): (BigInt, BigInt) = (big(x) << (FRACTION + 1), big(resolution));
+        let whole: BigInt = (&n + &d) / (2 * &d);
+        let is_tie = (&n + &d) % (2 * &d) == BigInt::ZERO;
+        let even: BigInt = if is_tie && whole.bit(0) { whole - 1 } else { whole };
+        if x < 0.0 { -even } else { even }
+    }
+
+    fn small() -> impl Strategy<Value = f64> {
+        prop_oneof![
+            -1e4..1e4,
+            (-600_i32..20).prop_map(|e| 1.7 * f64::from_parts(1, e)),
+            (-64_i32..64).prop_map(|k| f64::from(k) / 64.0),
+            // Half-way between two places, for the resolution 0.25.
+            (-64_i32..64).prop_map(|k| f64::from(k) * f64::from_parts(1, -31))
+        ]
+    }
+
+    proptest! {
+        #[test]
+        fn places_are_the_nearest(x in small(), resolution in prop_oneof![0.001_f64..10.0, Just(0.25), Just(3.0)]) {
+            prop_assert_eq!(BigInt::from(Lattice::new(resolution).nearest(x).unwrap()), nearest(x, resolution));
+        }
+
+        /// The end of a beam is within one unit of the place computed in floats, as far as those go.
+        #[test]
+        fn ends_lie_along_the_direction(angle in -9.0_f64..9.0, distance in 0.0_f64..1000.0, resolution in 0.01_f64..10.0) {
+            let direction = Direction::new(&[angle]).unwrap();
+            let start = [12_345_678_901, -98_765_432_109];
+            let end = Lattice::new(resolution).along(start, direction, distance).unwrap();
+            for (k, unit) in [direction.cos(), direction.sin()].into_iter().enumerate() {
+                let expected = distance * unit / resolution * f64::from_parts(1, FRACTION as i32);
+                let moved = (end[k] - start[k]) as f64;
+                prop_assert!((moved - expected).abs() <= 0.5 + expected.abs() * 4.0 * f64::EPSILON);
+            }
+        }
+
+        /// `rho^2` against the integers: half an ulp of `rho`, one of the quotient below, and their squares.
+        #[test]
+        fn distances_are_those_of_the_centre(x in -1_i64 << 50..1 << 50, y in -1_i64 << 50..1 << 50, column in -1_i64 << 22..1 << 22, row in -1_i64 << 22..1 << 22, e in -4_i32..4) {
+            let resolution = 1.5 * f64::from_parts(1, e);
+            let rho = Lattice::new(resolution).distance_to_centre([x, y], [column, row]);
+            let offset = |cell: i64, from: i64| BigInt::from((2 * cell + 1) * (1 << (FRACTION - 1)) - from);
+            let square = offset(column, x).pow(2) + offset(row, y).pow(2);
+            let (m, exponent) = (rho / resolution).parts();
+            // Of the quotient, another half ulp.
+            let found = BigInt::from(m).pow(2);
+            let shift = -2 * (exponent + FRACTION as i32);
+            let exact = if shift >= 0 { square << shift } else { square >> -shift };
+            let error: BigInt = if found > exact { &found - &exact } else { &exact - &found };
+            prop_assert!(error << 51 <= exact * 2_u32, "{rho}");
+        }
+    }
+
+    #[test]
+    fn places_beyond_the_lattice_are_none() {
+        let lattice = Lattice::new(0.5);
+        let end = f64::from_parts(1, 32);
+        assert_eq!((lattice.nearest(end), lattice.nearest(-end)), (Some(1 << 61), Some(-1 << 61)));
+        for x in [end.next_up(), 1e300, f64::MAX] {
+            assert_eq!((lattice.nearest(x), lattice.nearest(-x)), (None, None));
+        }
+        let direction = Direction::new(&[0.0]).unwrap();
+        assert_eq!(lattice.along([1 << 61, 0], direction, 0.5), None);
+        assert_eq!(lattice.along([1 << 61, 0], direction, 1e-30), Some([1 << 61, 0]));
+        for resolution in [f64::from_bits(1), f64::MAX] {
+            let lattice = Lattice::new(resolution);
+            assert_eq!(lattice.nearest(0.0), Some(0));
+            assert_eq!(lattice.nearest(resolution), Some(1 << FRACTION));
+        }
+        assert_eq!(Lattice::new(f64::MAX).nearest(f64::from_bits(1)), Some(0));
+        assert_eq!(Lattice::new(f64::from_bits(1)).nearest(f64::MAX), None);
+    }
+}

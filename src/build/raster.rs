@@ -1,0 +1,145 @@
+//! Rectangles of cells on an endless grid, and values for each cell of one.
+
+use crate::error::Error;
+use alloc::vec::Vec;
+
+/// The error of a map that exceeds its limit.
+pub(super) fn too_many(cells: u128, limit: u64) -> Error {
+    Error::TooManyCells { what: "the map", count: cells as f64, limit }
+}
+
+/// The cells from column and row `low` to before `high`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Area {
+    low: [i64; 2],
+    high: [i64; 2],
+}
+
+impl Area {
+    /// One cell.
+    pub(super) fn of_cell(cell: [i64; 2]) -> Self {
+        Self { low: cell, high: cell.map(|k| k + 1) }
+    }
+
+    /// The least area that holds both.
+    pub(super) fn union(self, other: Self) -> Self {
+        Self {
+            low: [0, 1].map(|k| self.low[k].min(other.low[k])),
+            high: [0, 1].map(|k| self.high[k].max(other.high[k])),
+        }
+    }
+
+    /// Widened by half of its own size on the sides where `wanted` lies beyond it, at least to `wanted`.
+    fn grown_to(self, wanted: Self) -> Self {
+        let margin = |k: usize| (self.high[k] - self.low[k]) / 2;
+        let low = |k: usize| {
+            if wanted.low[k] < self.low[k] { wanted.low[k].min(self.low[k] - margin(k)) } else { self.low[k] }
+        };
+        let high = |k: usize| {
+            if wanted.high[k] > self.high[k] {
+                wanted.high[k].max(self.high[k] + margin(k))
+            } else {
+                self.high[k]
+            }
+        };
+        Self { low: [low(0), low(1)], high: [high(0), high(1)] }
+    }
+
+    /// The column and row of its lowest cell.
+    pub(super) fn low(self) -> [i64; 2] {
+        self.low
+    }
+
+    /// Columns and rows.
+    pub(super) fn size(self) -> [usize; 2] {
+        [0, 1].map(|k| (self.high[k] - self.low[k]) as usize)
+    }
+
+    /// The number of its cells.
+    pub(super) fn cells(self) -> u128 {
+        let [columns, rows] = [0, 1].map(|k| self.high[k].abs_diff(self.low[k]));
+        u128::from(columns) * u128::from(rows)
+    }
+
+    /// The number of its cells, if it is within the limit.
+    pub(super) fn within(self, limit: u64) -> Result<usize, Error> {
+        let cells = self.cells();
+        let fits = usize::try_from(cells).ok().filter(|_| cells <= u128::from(limit));
+        fits.ok_or(too_many(cells, limit))
+    }
+
+    fn holds(self, other: Self) -> bool {
+        self.union(other) == self
+    }
+}
+
+/// A value for each cell of an area, row by row from the lowest.
+#[derive(Clone, Debug)]
+pub(super) struct Raster<C> {
+    area: Area,
+    cells: Vec<C>,
+}
+
+impl<C: Copy> Raster<C> {
+    /// The same value everywhere.
+    ///
+    /// # Errors
+    /// [`Error::TooManyCells`] if there are more cells than the limit, or no memory for them.
+    pub(super) fn new(area: Area, fill: C, limit: u64) -> Result<Self, Error> {
+        let count = area.within(limit)?;
+        let mut cells = Vec::new();
+        cells.try_reserve_exact(count).map_err(|_| too_many(count as u128, limit))?;
+        cells.resize(count, fill);
+        Ok(Self { area, cells })
+    }
+
+    /// Makes room for the area `whole`, of which only `used` is not `fill` so far.
+    ///
+    /// # Errors
+    /// [`Error::TooManyCells`] if `whole` exceeds the limit, or there is no memory; then nothing changes.
+    pub(super) fn make_room(&mut self, used: Area, whole: Area, fill: C, limit: u64) -> Result<(), Error> {
+        if self.area.holds(whole) {
+            return Ok(());
+        }
+        // With room to spare, so that growing costs a fixed time per cell in the end; without, where the limit is near.
+        let spare = self.area.grown_to(whole);
+        let area = if spare.cells() <= u128::from(limit) { spare } else { whole };
+        let mut raster = Self::new(area, fill, limit)?;
+        for row in used.low[1]..used.high[1] {
+            raster.row_mut(used, row).copy_from_slice(self.row(used, row));
+        }
+        *self = raster;
+        Ok(())
+    }
+
+    fn range(&self, area: Area, row: i64) -> core::ops::Range<usize> {
+        let [width, _] = self.area.size();
+        let start = (row - self.area.low[1]) as usize * width + (area.low[0] - self.area.low[0]) as usize;
+        start..start + area.size()[0]
+    }
+
+    /// The part of a row that lies in `area`, which the raster must hold.
+    pub(super) fn row(&self, area: Area, row: i64) -> &[C] {
+        &self.cells[self.range(area, row)]
+    }
+
+    /// The part of a row that lies in `area`, which the raster must hold.
+    pub(super) fn row_mut(&mut self, area: Area, row: i64) -> &mut [C] {
+        let range = self.range(area, row);
+        &mut self.cells[range]
+    }
+
+    /// The value of a cell, which the raster must hold.
+    pub(super) fn cell_mut(&mut self, [column, row]: [i64; 2]) -> &mut C {
+        &mut self.row_mut(Area::of_cell([column, row]), row)[0]
+    }
+
+    pub(super) fn area(&self) -> Area {
+        self.area
+    }
+
+    /// The rows of an area that the raster must hold, from the lowest.
+    pub(super) fn rows(&self, area: Area) -> impl Iterator<Item = &[C]> {
+        (area.low[1]..area.high[1]).map(move |row| self.row(area, row))
+    }
+}

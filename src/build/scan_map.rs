@@ -1,0 +1,253 @@
+//! Scans inserted into a map: log-odds of an inverse sensor model along each beam, added up exactly.
+
+use super::lattice::{Lattice, Point};
+use super::raster::{Area, Raster};
+use super::scan::{Beam, Scan};
+use super::traversal::{Traversal, cell_of};
+use crate::cell;
+use crate::error::Error;
+use crate::map::encoding::{LogOdds, Probability};
+use crate::map::{Encoding, Geometry, Grid};
+use crate::real::Real;
+use crate::rounded::{LOG_ODDS_SCALE, fixed_log_odds, occupancy_from_fixed_log_odds, round_log_odds};
+use crate::sensor::InverseSensorModel;
+use alloc::vec::Vec;
+use core::marker::PhantomData;
+
+/// A map that range scans are inserted into.
+///
+/// Cells are squares of one side, `[i r, (i + 1) r) x [j r, (j + 1) r)` for integers `i` and `j`, so that all maps of
+/// one resolution share their cells. The map grows with the scans; each cell holds the sum of log-odds of the scans
+/// that touched it, in integers, so any order of scans gives the same bits. Nothing known is 0: prior 1/2.
+///
+/// ```
+/// use mean_information::build::{Beam, Pose, Scan, ScanMap};
+/// use mean_information::sensor::GaussianSensor;
+///
+/// // Two beams: a wall at 1.5 m ahead, nothing within 2 m to the left.
+/// let beams = vec![Beam { bearing: 0.0, range: Some(1.5) }, Beam { bearing: 1.5, range: None }];
+/// let scan = Scan::new(Pose::new(0.13, 0.27, 0.0)?, 2.0, beams)?;
+/// let mut map = ScanMap::<f64>::new(0.25)?;
+/// map.insert(&scan, |range| GaussianSensor::new(range, 0.1))?;
+/// let tally = map.log_odds()?.tally();
+/// assert_eq!((tally.free(), tally.occupied()), (14, 1));
+/// # Ok::<(), mean_information::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct ScanMap<T> {
+    lattice: Lattice,
+    limit: i128,
+    max_cells: u64,
+    scans: u64,
+    /// What the beams have crossed, and the sums of log-odds of an area that holds it.
+    seen: Option<(Area, Raster<i128>)>,
+    format: PhantomData<T>,
+}
+
+impl<T: Real> ScanMap<T> {
+    /// The most cells a map may have unless the caller says otherwise: `8192 x 8192`, which take 1 GiB at 16 bytes
+    /// each.
+    pub const MAX_CELLS: u64 = 1 << 26;
+
+    /// The log-odds (nats) to which a reading is limited unless the caller says otherwise: those of `p = 0.971`.
+    pub const READING_LIMIT: f64 = 3.5;
+
+    /// An empty map of cells of side `resolution` (metres).
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if it is not positive and finite.
+    pub fn new(resolution: f64) -> Result<Self, Error> {
+        Geometry::new(resolution, [0.0; 2])?;
+        let map = Self {
+            lattice: Lattice::new(resolution),
+            limit: 0,
+            max_cells: Self::MAX_CELLS,
+            scans: 0,
+            seen: None,
+            format: PhantomData,
+        };
+        map.with_reading_limit(Self::READING_LIMIT)
+    }
+
+    /// Limits the log-odds of one reading of a cell to `-limit..=limit` (nats); [`Self::READING_LIMIT`] otherwise.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if it is not in `(0, 40]`.
+    pub fn with_reading_limit(mut self, limit: f64) -> Result<Self, Error> {
+        if !(limit > 0.0 && limit <= 40.0) {
+            return Err(Error::out_of_range(
+                "limit on the log-odds of a reading",
+                limit,
+                "above 0, up to 40 nats",
+            ));
+        }
+        let (m, e) = limit.parts();
+        let shift = e + LOG_ODDS_SCALE;
+        let m = i128::from(m);
+        self.limit =
+            (if shift >= 0 { m << shift } else { m.checked_shr(shift.unsigned_abs()).unwrap_or(0) }).max(1);
+        Ok(self)
+    }
+
+    /// Refuses scans that would make the map larger than this; [`Self::MAX_CELLS`] otherwise.
+    #[must_use]
+    pub fn with_max_cells(self, max_cells: u64) -> Self {
+        Self { max_cells, ..self }
+    }
+
+    /// The side of a cell, in metres.
+    pub fn resolution(&self) -> f64 {
+        self.lattice.resolution()
+    }
+
+    /// How many scans were inserted.
+    pub fn scans(&self) -> u64 {
+        self.scans
+    }
+
+    /// Inserts a scan: along each beam, as far as the model of its range reaches, the cells it crosses.
+    ///
+    /// A cell is told the log-odds of the model's occupancy at the distance of its centre from the sensor, limited to
+    /// those of a reading; the distance is the nearest `f64`, rounded again in `f32`. A beam without return tells
+    /// what the model of the maximum range calls free. A cell that several beams of the scan cross is told one thing:
+    /// an occupied reading before a free one, of two alike the surer. Which cells are crossed is decided without
+    /// rounding between points of a lattice of `2^-28` of a cell; the chapter [`scan`](crate::book::scan) has these
+    /// rules and their reasons.
+    ///
+    /// # Errors
+    /// What `model` refuses; [`Error::Item`] naming a beam whose model gives no occupancy, or a place that is not
+    /// within `2^33` cells of the origin; [`Error::TooManyCells`] if the map would exceed its limit. Then the map has
+    /// not changed.
+    pub fn insert<M, F>(&mut self, scan: &Scan<T>, model: F) -> Result<(), Error>
+    where
+        M: InverseSensorModel<Float = T>,
+        F: Fn(T) -> Result<M, Error>,
+    {
+        let start = self.start(scan)?;
+        let mut segments = Vec::with_capacity(scan.beams().len());
+        let mut area = Area::of_cell(cell_of(start));
+        for (index, beam) in scan.beams().iter().enumerate() {
+            let segment = self.segment(scan, beam, start, &model, index)?;
+            area = area.union(Area::of_cell(cell_of(segment.end)));
+            segments.push(segment);
+        }
+        let whole = self.seen.as_ref().map_or(area, |(seen, _)| seen.union(area));
+        // Before the work, which is at most what a map within the limit takes.
+        whole.within(self.max_cells)?;
+
+        let mut readings = Raster::new(area, T::HALF, self.max_cells)?;
+        for (index, segment) in segments.iter().enumerate() {
+            for cell in Traversal::new(start, segment.end) {
+                let rho = T::nearest(self.lattice.distance_to_centre(start, cell));
+                let p = segment.model.occupancy(rho);
+                if !cell::in_unit_interval(p) {
+                    let what = "occupancy by the model of beam";
+                    return Err(Error::Item { what, index, value: p.widen(), allowed: "0 to 1" });
+                }
+                if segment.is_return || p < T::HALF {
+                    let reading = readings.cell_mut(cell);
+                    *reading = stronger(*reading, p);
+                }
+            }
+        }
+        self.add(whole, &readings)
+    }
+
+    fn start(&self, scan: &Scan<T>) -> Result<Point, Error> {
+        let [x, y] = scan.pose().position();
+        let place = |what, x| {
+            self.lattice
+                .nearest(x)
+                .ok_or_else(|| Error::out_of_range(what, x, "within 2^33 cells of the origin"))
+        };
+        Ok([place("x of the pose", x)?, place("y of the pose", y)?])
+    }
+
+    fn segment<M: InverseSensorModel<Float = T>>(
+        &self,
+        scan: &Scan<T>,
+        beam: &Beam<T>,
+        start: Point,
+        model: impl Fn(T) -> Result<M, Error>,
+        index: usize,
+    ) -> Result<Segment<M>, Error> {
+        let model = model(beam.range.unwrap_or(scan.maximum_range()))?;
+        let length = if beam.range.is_some() { model.reach() } else { scan.maximum_range() }.widen();
+        let far = || Error::Item {
+            what: "reach of beam",
+            index,
+            value: length,
+            allowed: "finite, ending within 2^33 cells of the origin",
+        };
+        if !(length >= 0.0 && length.is_finite()) {
+            return Err(far());
+        }
+        let end = self.lattice.along(start, scan.direction(beam)?, length).ok_or_else(far)?;
+        Ok(Segment { end, model, is_return: beam.range.is_some() })
+    }
+
+    /// Adds the log-odds of the readings of one scan.
+    fn add(&mut self, whole: Area, readings: &Raster<T>) -> Result<(), Error> {
+        let area = readings.area();
+        match &mut self.seen {
+            Some((seen, sums)) => {
+                sums.make_room(*seen, whole, 0, self.max_cells)?;
+                *seen = whole;
+            }
+            None => self.seen = Some((whole, Raster::new(area, 0, self.max_cells)?)),
+        }
+        if let Some((_, sums)) = &mut self.seen {
+            for (row, readings) in (area.low()[1]..).zip(readings.rows(area)) {
+                for (sum, &p) in sums.row_mut(area, row).iter_mut().zip(readings) {
+                    // 2^41 scans would not fill the integer.
+                    *sum += fixed_log_odds(p).clamp(-self.limit, self.limit);
+                }
+            }
+        }
+        self.scans += 1;
+        Ok(())
+    }
+
+    /// The map in log-odds (nats), as large as what the beams have crossed.
+    ///
+    /// The log-odds of `n` scans are within `n 2^-76` nats of their exact sum, and rounded once (proved,
+    /// [`scan`](crate::book::scan)).
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if the corner of the map is not finite.
+    pub fn log_odds(&self) -> Result<Grid<LogOdds<T>>, Error> {
+        self.grid(round_log_odds)
+    }
+
+    /// The same map in probabilities: within 0.501 ulp of those of the sums before these are rounded (proved,
+    /// [`scan`](crate::book::scan)).
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if the corner of the map is not finite.
+    pub fn probabilities(&self) -> Result<Grid<Probability<T>>, Error> {
+        self.grid(occupancy_from_fixed_log_odds)
+    }
+
+    fn grid<E: Encoding>(&self, stored: impl Fn(i128) -> E::Stored) -> Result<Grid<E>, Error> {
+        let Some((seen, sums)) = &self.seen else {
+            return Grid::new(0, 0, Geometry::new(self.resolution(), [0.0; 2])?, Vec::new());
+        };
+        let origin = seen.low().map(|k| k as f64 * self.resolution());
+        let [width, height] = seen.size();
+        let cells = sums.rows(*seen).flatten().map(|&sum| stored(sum)).collect();
+        Grid::new(width, height, Geometry::new(self.resolution(), origin)?, cells)
+    }
+}
+
+/// A beam on the lattice.
+struct Segment<M> {
+    end: Point,
+    model: M,
+    is_return: bool,
+}
+
+/// Of two readings of a cell in one scan: an occupied one before a free one, the surer of two alike. In any order the
+/// same.
+fn stronger<T: Real>(a: T, b: T) -> T {
+    if a > T::HALF || b > T::HALF { a.max(b) } else { a.min(b) }
+}

@@ -1,0 +1,147 @@
+//! Angles as turns modulo 1, and their cosine and sine, in integers.
+
+use super::fixed::{mul_high, shift_right};
+use crate::real::Real;
+
+/// `1 / (2π)`, cut to 1216 bits, the highest first.
+const TURNS_PER_RADIAN: [u64; 19] = [
+    0x28be_60db_9391_054a,
+    0x7f09_d5f4_7d4d_3770,
+    0x36d8_a566_4f10_e410,
+    0x7f94_58ea_f7ae_f158,
+    0x6dc9_1b8e_9093_74b8,
+    0x0192_4bba_8274_6487,
+    0x3f87_7ac7_2c4a_69cf,
+    0xba20_8d7d_4bae_d121,
+    0x3a67_1c09_ad17_df90,
+    0x4e64_758e_60d4_ce7d,
+    0x2721_17e2_ef7e_4a0e,
+    0xc7fe_25ff_f781_6603,
+    0xfbcb_c462_d682_9b47,
+    0xdb4d_9fb3_c9f2_c26d,
+    0xd3d1_8fd9_a797_fa8b,
+    0x5d49_eeb1_faf9_7c5e,
+    0xcf41_ce7d_e294_a4ba,
+    0x9afe_d7ec_47e3_5742,
+    0x1580_cc11_bf1e_daea,
+];
+
+/// `π / 2`, scale 126.
+const HALF_PI: u128 = 0x6487_ed51_10b4_611a_6263_3145_c06e_0e69;
+
+/// The whole part modulo 2 dropped from a finite angle of `x` radians: turns in units of `2^-128`, within 2 units.
+///
+/// Sums of turns wrap, as angles do.
+pub(crate) fn turns(x: f64) -> u128 {
+    let (m, e) = x.parts();
+    // The bits of 1 / (2π) of weight 2^-(e + 1) to 2^-(e + 192): times m 2^e, they make its fraction and no less than
+    // its first 139 bits.
+    let bits = |last: i32| {
+        let limb = |k: i32| {
+            usize::try_from(k).ok().and_then(|k| TURNS_PER_RADIAN.get(k)).map_or(0, |&l| u128::from(l))
+        };
+        let (k, shift) = (last.div_euclid(64), last.rem_euclid(64));
+        ((limb(k - 1) << 64 | limb(k)) >> (64 - shift)) as u64
+    };
+    let [low, middle, high] = [e + 192, e + 128, e + 64].map(|last| u128::from(bits(last)));
+    let m = u128::from(m);
+    let turns = (m * middle).wrapping_add((m * low) >> 64).wrapping_add((m * high) << 64);
+    if x < 0.0 { turns.wrapping_neg() } else { turns }
+}
+
+/// The cosine and the sine of an angle in turns, scale 62, within 0.51 units.
+pub(crate) fn cos_sin(turns: u128) -> [i64; 2] {
+    // The part of a quarter turn, scale 126, and its complement: both functions of the smaller one.
+    let part = turns & ((1 << 126) - 1);
+    let rest = (1 << 126) - part;
+    let [cos, sin] = if part <= rest { of_part(part) } else { swapped(of_part(rest)) };
+    match turns >> 126 {
+        0 => [cos, sin],
+        1 => [-sin, cos],
+        2 => [-cos, -sin],
+        _ => [sin, -cos],
+    }
+}
+
+fn swapped([cos, sin]: [i64; 2]) -> [i64; 2] {
+    [sin, cos]
+}
+
+/// Of at most half of a quarter turn, scale 126.
+///
+/// Taylor's series to the 30th power: what follows is below `2^-120`. Each of the 15 steps floors twice, 2 units of
+/// `2^-126`.
+fn of_part(part: u128) -> [i64; 2] {
+    let angle = mul_high(part << 1, HALF_PI << 1);
+    let square = mul_high(angle << 1, angle << 1);
+    // 1 - a^2 / (f (f+1)) (1 - a^2 / ((f+2) (f+3)) (1 - ...)), from f = 1 or 2.
+    let series = |first: u128| {
+        (0..15).rev().map(|k| first + 2 * k).fold(1 << 126, |sum: u128, factor| {
+            (1 << 126) - mul_high(square << 1, sum << 1) / (factor * (factor + 1))
+        })
+    };
+    let rounded = |x: u128| ((shift_right(x, 63) + 1) >> 1) as i64;
+    [rounded(series(1)), rounded(mul_high(angle << 1, series(2) << 1))]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use num_bigint::BigInt;
+    use proptest::prelude::*;
+
+    const PLACES: u32 = 1400;
+
+    /// `arctan(1/n)`, scale [`PLACES`].
+    fn arctan_of_inverse(n: u32) -> BigInt {
+        let mut power = (BigInt::from(1) << PLACES) / n;
+        let mut sum = power.clone();
+        for k in (3_u32..).step_by(2).take_while(|&k| k < 2 * PLACES) {
+            power = -power / (n * n);
+            sum += &power / k;
+        }
+        sum
+    }
+
+    /// Machin's formula.
+    fn pi() -> BigInt {
+        arctan_of_inverse(5) * 16 - arctan_of_inverse(239) * 4
+    }
+
+    #[test]
+    fn the_constants_are_those_of_machins_formula() {
+        let turns = (BigInt::from(1) << (PLACES + 1216 - 1)) / pi();
+        let stated = TURNS_PER_RADIAN.iter().fold(BigInt::from(0), |sum, &limb| (sum << 64) + limb);
+        assert_eq!(turns, stated);
+        assert_eq!((pi() + (BigInt::from(1) << (PLACES - 126))) >> (PLACES - 125), HALF_PI.into());
+    }
+
+    /// `|sin^2 + cos^2 - 1|`, in units of `2^-62`, is at most `2 (0.51 + 0.51)` and a little.
+    fn on_the_circle([cos, sin]: [i64; 2]) -> bool {
+        let [cos, sin] = [cos, sin].map(i128::from);
+        (cos * cos + sin * sin - (1 << 124)).unsigned_abs() <= 3 << 62
+    }
+
+    proptest! {
+        #[test]
+        fn turns_are_the_angle_over_2_pi_modulo_1(x in any::<f64>().prop_filter("finite", |x| x.is_finite())) {
+            let (m, e) = x.parts();
+            // Scale 1400 + 1074; the error of 1 / 2π is far below 2^-128 of m 2^e.
+            let whole = (BigInt::from(m) << (2 * 1400 - 1)) / pi();
+            let at_128 = if e >= 1272 { whole << (e - 1272) } else { whole >> (1272 - e) };
+            let modulo = at_128 & ((BigInt::from(1) << 128) - 1);
+            let expected = u128::try_from(modulo).unwrap();
+            let found = if x < 0.0 { turns(x).wrapping_neg() } else { turns(x) };
+            prop_assert!(expected.wrapping_sub(found).min(found.wrapping_sub(expected)) <= 2, "{expected} {found}");
+        }
+
+        #[test]
+        fn cosine_and_sine_are_on_the_circle_and_turn_with_the_angle(turns in any::<u128>()) {
+            let [cos, sin] = cos_sin(turns);
+            prop_assert!(on_the_circle([cos, sin]));
+            prop_assert_eq!(cos_sin(turns.wrapping_add(1 << 126)), [-sin, cos]);
+            prop_assert_eq!(cos_sin(turns.wrapping_add(1 << 127)), [-cos, -sin]);
+            prop_assert_eq!(cos_sin(turns.wrapping_neg()), [cos, -sin]);
+        }
+    }
+}

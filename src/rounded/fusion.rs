@@ -1,0 +1,126 @@
+//! `p = A / (A + B)` with `A = prod p_i` and `B = prod (1 - p_i)`, as if computed exactly and rounded once.
+//!
+//! The powers of two of the factors `p_i = m_i 2^-n_i` and `1 - p_i = (2^n_i - m_i) 2^-n_i` are the same on both
+//! sides and cancel: `A` and `B` stand for products of integers here. First in 128 bits; where these leave two floats
+//! to choose from, which includes all ties, exactly.
+
+use super::enclosure::{Enclosure, Rounded};
+use super::fixed::{mul_high, reciprocal, shift_right};
+use super::natural::{Natural, quotient};
+use super::normalised;
+use crate::real::Real;
+
+/// A positive number, cut: a significand in `[2^127, 2^128)`, an exponent.
+#[derive(Clone, Copy)]
+struct Cut {
+    m: u128,
+    e: i64,
+}
+
+impl Cut {
+    const ONE: Self = Self { m: 1 << 127, e: -127 };
+
+    fn new(m: u128, e: i64) -> Self {
+        let shift = m.leading_zeros();
+        Self { m: m << shift, e: e - i64::from(shift) }
+    }
+
+    /// Cut by less than 2 units of the last place.
+    fn times(self, other: Self) -> Self {
+        Self::new(mul_high(self.m, other.m), self.e + other.e + 128)
+    }
+}
+
+/// For occupancies inside (0, 1).
+pub(crate) fn fused<T: Real>(occupancies: impl Iterator<Item = T> + Clone) -> T {
+    match enclosure(occupancies.clone().map(factors)).map(Enclosure::round) {
+        Ok(Rounded::Decided(p)) => p,
+        Ok(Rounded::Between { .. }) => exactly(occupancies.map(factors)),
+        Err(certain) => certain,
+    }
+}
+
+/// `m` and `n` with `p = m 2^-n`, `m` odd.
+fn factors<T: Real>(p: T) -> (u64, u32) {
+    let (m, e) = normalised(p);
+    let zeros = m.trailing_zeros();
+    (m >> zeros, (-e) as u32 - zeros)
+}
+
+/// The fused occupancy within a relative `2^-80`, for fewer than `2^40` factors: each cuts below `2^-125`. Or the
+/// float where nothing else is near.
+fn enclosure<T: Real>(factors: impl Iterator<Item = (u64, u32)>) -> Result<Enclosure, T> {
+    let (a, b) = factors.fold((Cut::ONE, Cut::ONE), |(a, b), (m, n)| {
+        let free = if n < 128 { Cut::new((1 << n) - u128::from(m), 0) } else { rest_of_small(m, n) };
+        (a.times(Cut::new(m.into(), 0)), b.times(free))
+    });
+    let occupied = (a.e, a.m) >= (b.e, b.m);
+    let (large, small) = if occupied { (a, b) } else { (b, a) };
+    let gap = large.e - small.e;
+    if gap > 2000 {
+        return Err(if occupied { T::one() } else { T::zero() });
+    }
+    // x = small / large = ratio 2^(-126 - gap), at most 1, and p or 1 - p is 1 / (1 + x).
+    let ratio = mul_high(small.m, reciprocal(large.m >> 1) << 1);
+    let inverse = reciprocal((1 << 126) + shift_right(ratio, gap as i32));
+    let (value, exponent) =
+        if occupied { (inverse, -126) } else { (mul_high(ratio << 1, inverse << 1), -126 - gap as i32) };
+    Ok(Enclosure::around(value, (value >> 80) + 1, exponent))
+}
+
+/// `2^n - m` for `m < 2^53` and `n >= 128`.
+fn rest_of_small(m: u64, n: u32) -> Cut {
+    let part = shift_right(u128::from(m), n as i32 - 128) + 1;
+    Cut { m: u128::MAX - part + 1, e: i64::from(n) - 128 }
+}
+
+fn exactly<T: Real>(factors: impl Iterator<Item = (u64, u32)>) -> T {
+    let (mut a, mut b) = (Natural::from(1), Natural::from(1));
+    for (m, n) in factors {
+        a = a.times(&m.into());
+        b = b.times(&Natural::from(1).shifted(n as usize).difference(&m.into()).0);
+    }
+    let whole = b.plus(&a);
+    quotient(&a, &whole, 0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cell::in_unit_interval;
+    use proptest::collection::vec;
+    use proptest::prelude::*;
+
+    fn inside() -> impl Strategy<Value = f64> {
+        prop_oneof![
+            (1_u64..1.0_f64.to_bits()).prop_map(f64::from_bits),
+            (1_u32..64).prop_map(|k| f64::from(k) / 64.0),
+            0.2..0.8,
+        ]
+        .prop_filter("inside", |&p| p > 0.0 && p < 1.0)
+    }
+
+    /// Next to a midpoint: `p = a b 2^-800 (1 + a 2^-400 + ...)` with `a b` of 54 bits, the last of them 1.
+    #[test]
+    fn what_128_bits_do_not_tell_is_told_exactly() {
+        let (a, b) = ((1 << 27) + 1, (1 << 26) + 1);
+        let p = [f64::from_parts(a, -400), f64::from_parts(b, -400)];
+        let found = enclosure::<f64>(p.into_iter().map(factors)).map(Enclosure::round::<f64>);
+        assert!(matches!(found, Ok(Rounded::Between { .. })));
+        assert_eq!(fused(p.into_iter()), f64::from_parts(a * b / 2 + 1, -799));
+    }
+
+    proptest! {
+        /// Two ways: 128 bits, and exactly.
+        #[test]
+        fn the_enclosure_holds_the_exact_result(p in vec(inside(), 0..12)) {
+            let exact: f64 = exactly(p.iter().copied().map(factors));
+            let found: f64 = fused(p.iter().copied());
+            prop_assert!(in_unit_interval(exact));
+            prop_assert_eq!(found.to_bits(), exact.to_bits(), "{:?}", p);
+            let single: Vec<f32> = p.iter().map(|&p| p as f32).filter(|&p| p > 0.0 && p < 1.0).collect();
+            let exact: f32 = exactly(single.iter().copied().map(factors));
+            prop_assert_eq!(fused(single.iter().copied()), exact);
+        }
+    }
+}

@@ -1,0 +1,170 @@
+//! The log-odds `l = ln (p / (1 - p))` of an occupancy: correctly rounded, and in fixed point, so that sums are
+//! exact.
+//!
+//! `|l| = ln ((1 - q) / q)` with `q = min(p, 1 - p)`. No ties: a tie `c` would make `e^c` rational (Lindemann).
+
+use super::big::Ball;
+use super::constants::LN2;
+use super::enclose::{self, minor};
+use super::enclosure::{Enclosure, Midpoint};
+use super::exact::{decide, exp_neg_dyadic};
+use super::fixed::{LOG_1P_OVER_ERROR, LOG_ERROR, ONE_120, log2, log2_1p_over, mul_high, shift_right};
+use super::{normalised, round_integer, settle};
+use crate::real::Real;
+
+/// Log-odds in fixed point are integers in units of `2^-80` nats.
+pub(crate) const LOG_ODDS_SCALE: i32 = 80;
+
+/// `ln (p / (1 - p))` for `p` in `[0, 1]`.
+pub(crate) fn log_odds_from_occupancy<T: Real>(p: T) -> T {
+    if p == T::HALF {
+        return T::zero();
+    }
+    let magnitude = if p.is_zero() || p == T::one() {
+        T::infinity()
+    } else {
+        let (m, e) = normalised(p);
+        let Magnitude { value, error, exponent } = magnitude(m, -e);
+        settle(Enclosure::around(value, error, exponent), |midpoint| is_above(m, -e, midpoint))
+    };
+    if p < T::HALF { -magnitude } else { magnitude }
+}
+
+/// `ln (p / (1 - p))` in units of `2^-80`, within `2^4` units, for `p` in `[0, 1]`; `±2^100` units for the
+/// infinities.
+///
+/// Not 0 unless `p = 1/2`: the least magnitude is `2^-52`.
+pub(crate) fn fixed_log_odds<T: Real>(p: T) -> i128 {
+    if p == T::HALF {
+        return 0;
+    }
+    let magnitude = if p.is_zero() || p == T::one() {
+        1 << 100
+    } else {
+        let (m, e) = normalised(p);
+        let Magnitude { value, exponent, .. } = magnitude(m, -e);
+        shift_right(value, -exponent - LOG_ODDS_SCALE) as i128
+    };
+    if p < T::HALF { -magnitude } else { magnitude }
+}
+
+/// The nearest float to a sum of log-odds in fixed point.
+pub(crate) fn round_log_odds<T: Real>(sum: i128) -> T {
+    let magnitude: T = round_integer(sum.unsigned_abs(), -LOG_ODDS_SCALE, false);
+    if sum < 0 { -magnitude } else { magnitude }
+}
+
+/// `1 / (1 + e^-l)` for log-odds in fixed point, within 0.501 ulp: `l` having been summed up, no more is asked.
+pub(crate) fn occupancy_from_fixed_log_odds<T: Real>(sum: i128) -> T {
+    if sum == 0 {
+        return T::HALF;
+    }
+    let l = sum.unsigned_abs();
+    if l >> (LOG_ODDS_SCALE + 10) != 0 {
+        return if sum < 0 { T::zero() } else { T::one() };
+    }
+    settle(enclose::occupancy(l << (117 - LOG_ODDS_SCALE), sum < 0), |_| false)
+}
+
+/// `value 2^exponent`, within `error` units.
+pub(super) struct Magnitude {
+    pub(super) value: u128,
+    error: u128,
+    pub(super) exponent: i32,
+}
+
+/// `|l|` for `p = m 2^-n`, `2^52 <= m < 2^53`.
+pub(super) fn magnitude(m: u64, n: i32) -> Magnitude {
+    if n <= 54 {
+        let d = (2 * m).abs_diff(1 << n);
+        if d < 1 << (n - 8) {
+            return near_unknown(d, n);
+        }
+    }
+    let (m, n) = minor(m, n);
+    if n <= 60 { with_two_logarithms(m, n) } else { with_small_occupancy(m, n) }
+}
+
+/// `|2p - 1| = d 2^-n < 2^-8`: `|l| = ln (1 + d) - ln (1 - d)`, each a slope times `d`.
+fn near_unknown(d: u64, n: i32) -> Magnitude {
+    let z = d << (71 - n);
+    let slope = mul_high((log2_1p_over(z, false) + log2_1p_over(z, true)) << 14, LN2);
+    let shift = d.leading_zeros() as i32;
+    let value = mul_high(u128::from(d << shift) << 64, slope);
+    // Of the slope, 2 LOG_1P_OVER_ERROR 2^14 (ln 2) / 2.
+    Magnitude { value, error: LOG_1P_OVER_ERROR << 14, exponent: -61 - shift - n }
+}
+
+/// `q >= 2^-8`: `|l| / ln 2 = log2 (1 - q) - log2 q`.
+fn with_two_logarithms(m: u64, n: i32) -> Magnitude {
+    let minus_log2_q = (n - 52) as i128 * ONE_120 as i128 - log2(m, 52);
+    let minus_log2_rest = ONE_120 as i128 - log2((1 << n) - m, n as u32 - 1);
+    let value = mul_high((minus_log2_q - minus_log2_rest) as u128, LN2 << 1);
+    Magnitude { value, error: 2 * LOG_ERROR, exponent: -120 }
+}
+
+/// `q < 2^-8`: the same with `-log2 (1 - q)` a slope times `q`.
+fn with_small_occupancy(m: u64, n: i32) -> Magnitude {
+    let q_71 = if n <= 71 { m << (71 - n) } else { shift_right(u128::from(m), n - 71) as u64 };
+    let minus_log2_rest = shift_right(mul_high(u128::from(m) << 75, log2_1p_over(q_71, true)), n - 53);
+    let minus_log2_q = ((n - 52) as i128 * (1 << 112) - (log2(m, 52) >> 8)) as u128;
+    let value = mul_high(minus_log2_q - minus_log2_rest, LN2 << 1);
+    Magnitude { value, error: LOG_ERROR >> 6, exponent: -112 }
+}
+
+/// Whether `|l|` is above the midpoint `c`, for `p = m 2^-n`: whether `q < (1 - q) e^-c`.
+fn is_above(m: u64, n: i32, midpoint: Midpoint) -> bool {
+    let (m, n) = minor(m, n);
+    decide(|fraction| {
+        let (y, k) = exp_neg_dyadic(midpoint.m, midpoint.exponent, fraction);
+        let rest = Ball::dyadic(1, 0, fraction).minus(&Ball::dyadic(m, -n, fraction));
+        rest.times(&y).scaled(1, n - 53 - k).is_above(&Ball::dyadic(m, -53, fraction))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn occupancy() -> impl Strategy<Value = f64> {
+        prop_oneof![
+            (1_u64..1.0_f64.to_bits()).prop_map(f64::from_bits),
+            0.0..1.0,
+            (1_u64..1 << 46).prop_map(|k| 0.5 + k as f64 / (1_u64 << 53) as f64),
+            (1_u64..1 << 46).prop_map(|k| 0.5 - k as f64 / (1_u64 << 54) as f64),
+            (1_i32..53).prop_map(|k| 1.0 - f64::from_parts(1, -k)),
+        ]
+        .prop_filter("inside", |&p| p > 0.0 && p < 1.0 && p != 0.5)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(1000))]
+
+        /// Both ends of the enclosure, compared in many bits: the value lies between them.
+        #[test]
+        fn the_enclosure_holds_the_log_odds(p in occupancy()) {
+            let (m, e) = normalised(p);
+            let Magnitude { value, error, exponent } = magnitude(m, -e);
+            let end = |x: u128, up: u64| {
+                let shift = 64 - x.leading_zeros() as i32;
+                Midpoint { m: (x >> shift) as u64 + up, exponent: exponent + shift }
+            };
+            // Cut to 64 bits, outwards: still within 2^-62 of the value.
+            prop_assert!(is_above(m, -e, end(value - error, 0)), "{:e}", p);
+            prop_assert!(!is_above(m, -e, end(value + error, 1)), "{:e}", p);
+            prop_assert!(value >> 60 >= error);
+        }
+
+        /// The two forms agree, as far as the units of the fixed point go.
+        #[test]
+        fn fixed_and_floating_log_odds_agree(p in occupancy()) {
+            let l = log_odds_from_occupancy(p);
+            let fixed = fixed_log_odds(p);
+            let rounded: f64 = round_log_odds(fixed);
+            prop_assert!((rounded - l).abs() <= l.abs() * f64::EPSILON + f64::from_parts(1, -76));
+            prop_assert_eq!(fixed > 0, p > 0.5);
+            prop_assert!(fixed != 0);
+        }
+    }
+}

@@ -85,35 +85,35 @@ impl Integral {
             );
         }
         assert_eq!(value.is_nan(), matches!(status, Status::NotFinite { .. }));
-        if self.kind % 5 == 0 && !value.is_nan() {
+        if self.kind.is_multiple_of(5) && !value.is_nan() {
             let (from, to) = (points[0].widen(), points[points.len() - 1].widen());
-            self.judge_polynomial(made_of, [from, to], value.widen(), error.widen());
+            judge_polynomial(made_of, [from, to], value.widen(), error.widen());
         }
     }
+}
 
-    /// Horner's scheme of degree 7 has 16 roundings of at most the sum of the terms' magnitudes: beyond the 2 ulp
-    /// that a claim takes an integrand to be off by. The antiderivative has as many.
-    fn judge_polynomial<T: Real>(&self, made_of: &[T], [from, to]: [f64; 2], value: f64, error: f64) {
-        let mut primitive = [0.0; 2];
-        let (mut size, mut total) = (0.0_f64, 0.0_f64);
-        for (k, (c, ends)) in coefficients(made_of).zip([[from, to]; 8]).enumerate() {
-            let c = c.widen() / (k + 1) as f64;
-            for (end, sum) in ends.into_iter().zip(&mut primitive) {
-                let power = (0..=k).fold(1.0, |power, _| power * end);
-                *sum += c * power;
-                size += (c * power).abs();
-            }
-            // |f| of every term, times the length.
-            let largest = from.abs().max(to.abs());
-            total += (c * (k + 1) as f64 * (0..k).fold(1.0, |power, _| power * largest) * (to - from)).abs();
+/// Horner's scheme of degree 7 has 16 roundings of at most the sum of the terms' magnitudes: beyond the 2 ulp
+/// that a claim takes an integrand to be off by. The antiderivative has as many.
+fn judge_polynomial<T: Real>(made_of: &[T], [from, to]: [f64; 2], value: f64, error: f64) {
+    let mut primitive = [0.0; 2];
+    let (mut size, mut total) = (0.0_f64, 0.0_f64);
+    for (k, (c, ends)) in coefficients(made_of).zip([[from, to]; 8]).enumerate() {
+        let c = c.widen() / (k + 1) as f64;
+        for (end, sum) in ends.into_iter().zip(&mut primitive) {
+            let power = (0..=k).fold(1.0, |power, _| power * end);
+            *sum += c * power;
+            size += (c * power).abs();
         }
-        let truth = primitive[1] - primitive[0];
-        let slack = 32.0 * f64::EPSILON * size + 16.0 * T::epsilon().widen() * total + 1e-290;
-        let tiny = if T::FORMAT == "f32" { 1e-37 } else { 1e-300 };
-        if truth.is_finite() && slack.is_finite() && size < 1e30 {
-            let slack = slack + tiny * (1.0 + (to - from).abs());
-            assert!((value - truth).abs() <= error + slack, "{value} for {truth}, claim {error}");
-        }
+        // |f| of every term, times the length.
+        let largest = from.abs().max(to.abs());
+        total += (c * (k + 1) as f64 * (0..k).fold(1.0, |power, _| power * largest) * (to - from)).abs();
+    }
+    let truth = primitive[1] - primitive[0];
+    let slack = 32.0 * f64::EPSILON * size + 16.0 * T::epsilon().widen() * total + 1e-290;
+    let tiny = if T::FORMAT == "f32" { 1e-37 } else { 1e-300 };
+    if truth.is_finite() && slack.is_finite() && size < 1e30 {
+        let slack = slack + tiny * (1.0 + (to - from).abs());
+        assert!((value - truth).abs() <= error + slack, "{value} for {truth}, claim {error}");
     }
 }
 

@@ -190,7 +190,7 @@ fn room_seeds() -> Vec<(&'static str, Vec<u8>)> {
 fn integrate_seeds() -> Vec<(&'static str, Vec<u8>)> {
     // Format and rule, kind of integrand, points, limit; the tolerances, the points, what the integrand is made of.
     let of = |head: [u8; 4], floats: &[f64]| {
-        let tail: Vec<u8> = if head[0] % 2 == 0 {
+        let tail: Vec<u8> = if head[0].is_multiple_of(2) {
             floats.iter().flat_map(|&x| (x as f32).to_le_bytes()).collect()
         } else {
             floats.iter().flat_map(|x| x.to_le_bytes()).collect()

@@ -1,8 +1,10 @@
-//! Rectangles of the complex plane, [`Complex`]: how large a function is about a real interval, and that it is analytic there.
+//! Rectangles of the complex plane, [`Complex`]: how large a function is about a real interval, and that it is
+//! analytic there.
 //!
 //! An operation gives a rectangle that contains its result for any numbers of its arguments. It gives
-//! [`NOT_ANALYTIC`](Complex::NOT_ANALYTIC), and every later operation hands that on, unless the function is analytic at each of
-//! them and real where they are: with the principal branches, cut along the negative axis, `ln` and `√` away from the cut.
+//! [`NOT_ANALYTIC`](Complex::NOT_ANALYTIC), and every later operation hands that on, unless the function is analytic
+//! at each of them and real where they are: with the principal branches, cut along the negative axis, `ln` and `√`
+//! away from the cut.
 //!
 //! Digits do not count here: magnitudes scale a remainder whose exponent does the work.
 
@@ -20,7 +22,8 @@ pub(crate) struct Complex {
     im: Real,
     /// A rectangle whose exponential this is: its logarithm, exactly, and the same branch all along.
     ///
-    /// `ln(e^z) = z` on the real axis, and so is its analytic continuation, also where the principal branch has left it.
+    /// `ln(e^z) = z` on the real axis, and so is its analytic continuation, also where the principal branch has left
+    /// it.
     logarithm: Option<(Real, Real)>,
 }
 
@@ -93,8 +96,8 @@ fn odd(x: Real, bounds: impl Fn(f64) -> (f64, f64)) -> Real {
     Real::between(end(x.lower()).0, end(x.upper()).1)
 }
 
-/// `v >= 0` widened by `2^-36` of it, more than the truncation and the roundings of the functions below; so that nothing
-/// underflows, tiny numbers are lumped together. All functions here are 0 at 0, exactly.
+/// `v >= 0` widened by `2^-36` of it, more than the truncation and the roundings of the functions below; so that
+/// nothing underflows, tiny numbers are lumped together. All functions here are 0 at 0, exactly.
 fn about(v: f64) -> (f64, f64) {
     const MARGIN: f64 = 1.0 / (1_u64 << 36) as f64;
     const TINY: f64 = 1e-290;
@@ -251,8 +254,8 @@ impl Scalar for Complex {
         -(self * self.ln() + rest * rest.ln()) / Self::ln_2()
     }
 
-    /// `(ln(1 + x) + l x / (1 + x)) / ln 2` with `x = e^-l`: analytic where `|im l| < π`, and where `re l > 0`, for there
-    /// `|x| < 1`. It is even: so also where `re l < 0`.
+    /// `(ln(1 + x) + l x / (1 + x)) / ln 2` with `x = e^-l`: analytic where `|im l| < π`, and where `re l > 0`, for
+    /// there `|x| < 1`. It is even: so also where `re l < 0`.
     fn entropy_from_log_odds(self) -> Self {
         let l = self.to_the_right();
         if !(l.re.lower() > 0.0 || l.im.magnitude() < PI.lower()) {

@@ -1,8 +1,8 @@
 //! What the ends of an interval are: floats with arithmetic rounded in a given direction.
 //!
-//! For `f32` and `f64` the rounded result of the processor is taken, and the sign of its exact residual (Knuth's TwoSum,
-//! Dekker's product) tells on which side of the true one it lies. No rounding mode is switched and no fused operation assumed.
-//! The elementary functions are those of [`Wide`].
+//! For `f32` and `f64` the rounded result of the processor is taken, and the sign of its exact residual (Knuth's
+//! TwoSum, Dekker's product) tells on which side of the true one it lies. No rounding mode is switched and no fused
+//! operation assumed. The elementary functions are those of [`Wide`].
 
 use core::fmt::Debug;
 use core::ops::Neg;
@@ -27,8 +27,8 @@ pub(super) mod sealed {
 
 /// An end of an interval: `f32`, `f64`, or the wide float of this crate's integrals.
 ///
-/// Sealed: the soundness of every interval rests on it. No operation is given a NaN or makes one: `0 inf = 0`, since an infinite
-/// end stands for numbers without bound, each of them finite.
+/// Sealed: the soundness of every interval rests on it. No operation is given a NaN or makes one: `0 inf = 0`, since
+/// an infinite end stands for numbers without bound, each of them finite.
 pub trait Endpoint: sealed::Sealed + Copy + Debug + PartialOrd + Neg<Output = Self> {
     /// 0.
     const ZERO: Self;
@@ -75,8 +75,8 @@ pub trait Endpoint: sealed::Sealed + Copy + Debug + PartialOrd + Neg<Output = Se
     fn entropy_from_log_odds(l: Interval<Self>) -> Interval<Self>;
 }
 
-/// [`Endpoint`] for one format: `$split` is `2^ceil(precision / 2) + 1`; products in `$plain`, of factors up to its upper end,
-/// neither overflow on the way nor have residuals below the smallest float.
+/// [`Endpoint`] for one format: `$split` is `2^ceil(precision / 2) + 1`; products in `$plain`, of factors up to its
+/// upper end, neither overflow on the way nor have residuals below the smallest float.
 macro_rules! impl_endpoint {
     ($float:ident, $split:literal, $plain:expr) => {
         const _: () = {
@@ -88,8 +88,8 @@ macro_rules! impl_endpoint {
                 }
             }
 
-            /// `x`, a rounded result, or the next float if `x` may lie on the wrong side: `residual` is the exact result
-            /// minus `x`, of which only the sign counts, or NaN where it is not known.
+            /// `x`, a rounded result, or the next float if `x` may lie on the wrong side: `residual` is the exact
+            /// result minus `x`, of which only the sign counts, or NaN where it is not known.
             #[inline]
             fn settle(x: $float, residual: $float, toward: Toward) -> $float {
                 let right = match toward {

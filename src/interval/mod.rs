@@ -19,14 +19,14 @@ use Toward::{Down, Up};
 
 /// All real numbers from `lower` to `upper`, or none.
 ///
-/// An operation on intervals gives an interval that contains the exact result of the operation on any numbers in them; so does a
-/// formula. An infinite end means that there is no bound on that side.
+/// An operation on intervals gives an interval that contains the exact result of the operation on any numbers in
+/// them; so does a formula. An infinite end means that there is no bound on that side.
 ///
-/// A function is taken where it is defined: `√[-1, 4]` is `[0, 2]`, and `ln [-2, -1]` is [`EMPTY`](Self::EMPTY), which every
-/// operation hands on. Division by an interval with 0 inside leaves no bounds.
+/// A function is taken where it is defined: `√[-1, 4]` is `[0, 2]`, and `ln [-2, -1]` is [`EMPTY`](Self::EMPTY),
+/// which every operation hands on. Division by an interval with 0 inside leaves no bounds.
 ///
-/// The ends are the best floats. They may be the next ones for products, quotients and roots near overflow and underflow, and for
-/// a value of another function that is within `2^-65` of a float, relative to it (proved in
+/// The ends are the best floats. They may be the next ones for products, quotients and roots near overflow and
+/// underflow, and for a value of another function that is within `2^-65` of a float, relative to it (proved in
 /// [`integration`](crate::book::integration)).
 ///
 /// ```

@@ -1,7 +1,8 @@
-//! A float of 128 bits, [`Wide`]: the ends of intervals so narrow that a sum of hundreds of them still rounds to one `f64`.
+//! A float of 128 bits, [`Wide`]: the ends of intervals so narrow that a sum of hundreds of them still rounds to one
+//! `f64`.
 //!
-//! Sums and products are within a unit of the last place, quotients and roots within `2^-115`, `e^x` within `2^-77`, all relative
-//! to the value; `ln x` is within `2^-76`, and near 1 within `2^-69` of its value: proved in
+//! Sums and products are within a unit of the last place, quotients and roots within `2^-115`, `e^x` within `2^-77`,
+//! all relative to the value; `ln x` is within `2^-76`, and near 1 within `2^-69` of its value: proved in
 //! [`integration`](crate::book::integration).
 
 use core::cmp::Ordering;
@@ -155,7 +156,8 @@ impl Endpoint for Wide {
         } else {
             let difference = large.m - addend;
             if inexact && shift == 1 && difference < TOP {
-                // What was shifted out is one half, for which there is room: exact, as differences of neighbours must be.
+                // What was shifted out is one half, for which there is room: exact, as differences of neighbours must
+                // be.
                 return Self::rounded(large.negative, 2 * difference - 1, large.e - 1, false, toward);
             }
             // What was shifted out is taken away too: less than one unit.
@@ -192,7 +194,8 @@ impl Endpoint for Wide {
         if other.m == TOP {
             return Self::rounded(negative, self.m, self.e - other.e - 127, false, toward);
         }
-        // The significands' quotient, scale 126, below 2: wrong by 2 (2^6 + 2^-1) units for the reciprocal, and by a floor.
+        // The significands' quotient, scale 126, below 2: wrong by 2 (2^6 + 2^-1) units for the reciprocal, and by a
+        // floor.
         let quotient = mul_high(self.m, reciprocal(other.m >> 1) << 1);
         let bound = if (toward == Up) == negative { quotient - 0x100 } else { quotient + 0x100 };
         Self::rounded(negative, bound, self.e - other.e - 126, false, toward)

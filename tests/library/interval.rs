@@ -41,7 +41,8 @@ fn point<T: Real + Endpoint>(x: T) -> Interval<T> {
     between(x, x)
 }
 
-/// Both ends are the best floats about `exact / scale`: it lies between them, and they are neighbours, or it is one of them.
+/// Both ends are the best floats about `exact / scale`: it lies between them, and they are neighbours, or it is one
+/// of them.
 fn is_best<T: Real + Endpoint>(x: Interval<T>, exact: &BigInt, scale: &BigInt) -> Result<(), TestCaseError> {
     let (lower, upper) = (integer(x.lower()) * scale, integer(x.upper()) * scale);
     prop_assert!(lower <= *exact && *exact <= upper, "{:?} misses it", x);
@@ -54,7 +55,8 @@ fn is_best<T: Real + Endpoint>(x: Interval<T>, exact: &BigInt, scale: &BigInt) -
 fn next_up<T: Real>(x: T) -> T {
     let step = |up: bool| {
         let (m, e) = x.parts();
-        // The largest significand of an exponent has the next power of two as its neighbour, which `from_parts` makes of it.
+        // The largest significand of an exponent has the next power of two as its neighbour, which `from_parts` makes
+        // of it.
         let below = m == 1 << (T::PRECISION - 1) && e > T::MIN_EXPONENT;
         match (up, below) {
             (true, _) => T::from_parts(m + 1, e),
@@ -112,8 +114,8 @@ proptest! {
         prop_assert!(integer(root.lower()).pow(2) <= square && square <= integer(root.upper()).pow(2));
     }
 
-    /// The best ends about a value are neighbours, and one of them is its nearest float. Or they are the neighbours of that one,
-    /// if the value is within `2^-66` of it, as `e^x` is of `1 + x` for tiny `x`.
+    /// The best ends about a value are neighbours, and one of them is its nearest float. Or they are the neighbours
+    /// of that one, if the value is within `2^-66` of it, as `e^x` is of `1 + x` for tiny `x`.
     #[test]
     fn functions_of_points_give_the_best_ends(x in number(), p in super::common::occupancy()) {
         let y = x.abs();
@@ -136,7 +138,9 @@ proptest! {
 
     /// Of any point in an interval, every function's nearest float lies in the interval of its values, ends included.
     #[test]
-    fn functions_of_intervals_contain_those_of_their_points(x in interval(), share in 0.0_f64..=1.0, p in interval()) {
+    fn functions_of_intervals_contain_those_of_points(
+        x in interval(), p in interval(), share in 0.0_f64..=1.0
+    ) {
         let inside = |x: Interval<f64>| (x.lower() + share * (x.upper() - x.lower())).clamp(x.lower(), x.upper());
         let at = inside(x);
         if at.abs() < 700.0 {
@@ -173,7 +177,8 @@ proptest! {
     #[test]
     fn a_part_goes_into_the_whole(x in interval(), share in 0.0_f64..=0.5) {
         let trim = share * (x.upper() - x.lower());
-        let part = between((x.lower() + trim).min(x.upper()), (x.upper() - trim).max((x.lower() + trim).min(x.upper())));
+        let lower = (x.lower() + trim).min(x.upper());
+        let part = between(lower, (x.upper() - trim).max(lower));
         let functions: [fn(Interval<f64>) -> Interval<f64>; 5] =
             [Scalar::exp, Scalar::ln, Scalar::sqrt, Scalar::entropy_from_log_odds, |x| x * x - x / point(3.0)];
         for f in functions {

@@ -1,4 +1,5 @@
-//! Rigorous integration: against integrals that are known in closed form, by their relations, and where it must give up.
+//! Rigorous integration: against integrals that are known in closed form, by their relations, and where it must give
+//! up.
 
 use mean_information::Real;
 use mean_information::estimate::{Enclosure, Status};
@@ -69,8 +70,8 @@ fn holds<T: Real>(enclosure: Enclosure<T>, text: &str) -> bool {
         && (digits - 1) << 1100_u32 <= scaled(enclosure.upper)
 }
 
-/// At the finest tolerance the ends are neighbours, or two floats apart, in both formats; at a coarse one they are as wide as
-/// asked for at most; and they always contain the integral.
+/// At the finest tolerance the ends are neighbours, or two floats apart, in both formats; at a coarse one they are as
+/// wide as asked for at most; and they always contain the integral.
 fn check(f: &impl Integrand, from: f64, to: f64, expected: &str) {
     let finest = Rigorous::<f64>::default().integrate(f, from, to).unwrap();
     assert!(holds(finest, expected), "{expected} is not in {finest:?}");
@@ -135,7 +136,8 @@ impl Integrand for Beam {
     }
 }
 
-/// Eq. 7 at `z = 2`, `σ = 0.2` (the ratio of these floats), from two enclosures: the limit is in an interval of some ulps.
+/// Eq. 7 at `z = 2`, `σ = 0.2` (the ratio of these floats), from two enclosures: the limit is in an interval of some
+/// ulps.
 #[test]
 fn the_limit_of_the_room() {
     let integrate = |beam: &Beam| {
@@ -157,7 +159,9 @@ proptest! {
 
     /// Parts add up, the ends change places with the sign, and other ends that are floats do as well.
     #[test]
-    fn parts_add_up(from in -3.0_f64..3.0, length in 1e-3_f64..4.0, share in 0.0_f64..=1.0, width in 1e-15_f64..1e-3) {
+    fn parts_add_up(
+        from in -3.0_f64..3.0, length in 1e-3_f64..4.0, share in 0.0_f64..=1.0, width in 1e-15_f64..1e-3
+    ) {
         let rule = Rigorous::new(width, 0.0)?;
         let to = from + length;
         let middle = (from + share * length).clamp(from, to);
@@ -229,6 +233,22 @@ fn where_there_is_no_integral() {
         assert_eq!((nothing_known.lower, nothing_known.upper), (f64::NEG_INFINITY, f64::INFINITY));
         assert!(nothing_known.evaluations < 20_000);
     }
+}
+
+/// Next to `t = 0` the occupancy is so near to 1 that 128 bits hold few digits of `1 - p`: what they hold is given,
+/// at the usual price. `int_0^(1/1024)`, by mpmath 1.3 at 50 digits, `quad` of the definition.
+#[test]
+fn roundings_do_not_make_it_search_for_ever() {
+    let beam = |denominator| Beam { ratio: Some([1.0, denominator]) };
+    let integral = Rigorous::<f64>::default().integrate(&beam(1024.0), 0.0, 1.0).unwrap();
+    assert!(holds(integral, "0.000000003632854738864173169948915295972996389"), "{integral:?}");
+    assert!(
+        integral.upper <= integral.lower.next_up().next_up() && integral.evaluations < 2000,
+        "{integral:?}"
+    );
+    let integral = Rigorous::<f64>::default().integrate(&beam(1048576.0), 0.0, 1.0).unwrap();
+    assert_eq!(integral.status, Status::RoundOff);
+    assert!(integral.width() < 1e-9 * integral.upper && integral.evaluations < 2000, "{integral:?}");
 }
 
 /// With few evaluations the enclosure is wide, and still one.

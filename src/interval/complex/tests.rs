@@ -1,4 +1,5 @@
-//! At points of a rectangle, in plain floating point: each result lies in the rectangle's, and small rectangles stay small.
+//! At points of a rectangle, in plain floating point: each result lies in the rectangle's, and small rectangles stay
+//! small.
 
 use super::*;
 use proptest::prelude::*;
@@ -118,8 +119,8 @@ proptest! {
         }
     }
 
-    /// Away from singularities, a rectangle of size `10^-3` has an image not much larger. The arc tangent's bounds are
-    /// up to `2^-9` apart.
+    /// Away from singularities, a rectangle of size `10^-3` has an image not much larger. The arc tangent's bounds
+    /// are up to `2^-9` apart.
     #[test]
     fn small_rectangles_stay_small(case in case(1e-3)) {
         let Complex { re, im, .. } = case.rectangle;
@@ -140,7 +141,8 @@ proptest! {
         }
     }
 
-    /// `1 - e^z` for small `z` keeps its digits: against `-z (1 + z/2 + z^2/6)`, of which the next term is `z^3 / 24`.
+    /// `1 - e^z` for small `z` keeps its digits: against `-z (1 + z/2 + z^2/6)`, of which the next term is `z^3 /
+    /// 24`.
     #[test]
     fn small_differences_keep_their_digits(x in -1.0_f64..1.0, y in -1.0_f64..1.0, k in 11_i32..40) {
         let scale = core_math::exp2(-f64::from(k));

@@ -1,4 +1,5 @@
-//! Against exact integers, and against an oracle of 600 bits: every interval contains the value, and is as narrow as stated.
+//! Against exact integers, and against an oracle of 600 bits: every interval contains the value, and is as narrow as
+//! stated.
 
 use super::*;
 use crate::rounded::wide::{SCALE, Wide as Oracle, from_log_odds, from_occupancy};
@@ -110,7 +111,10 @@ proptest! {
     }
 
     #[test]
-    fn floats_and_back(x in any::<f64>().prop_filter("finite", |x| x.is_finite()), y in any::<f32>().prop_filter("finite", |x| x.is_finite())) {
+    fn floats_and_back(x in any::<f64>(), y in any::<f32>()) {
+        if !(x.is_finite() && y.is_finite()) {
+            return Ok(());
+        }
         for toward in [Down, Up] {
             prop_assert_eq!(Wide::from(x).to_real::<f64>(toward), x);
             prop_assert_eq!(Wide::from(y).to_real::<f32>(toward), y);

@@ -1,11 +1,11 @@
 //! Rigorous integration: [`Rigorous`], whose results contain the integral, always.
 //!
 //! ```text
-//! int_a^b f  in  sum of w_i f(x_i) + [-R, R],    |R| <= (64/15) (b - a)/2 M ρ^-2n / (1 - ρ^-2),    M = max |f| on an ellipse
+//! int_a^b f  in  sum of w_i f(x_i) + [-R, R],    |R| <= (64/15) (b - a)/2 M ρ^-2n / (1 - ρ^-2),    |f| <= M
 //! ```
 //!
-//! on panels where `f` is analytic about the panel, and `int_a^b f in (b - a) f([a, b])` on tiny ones where it is not. The chapter
-//! [`integration`](crate::book::integration) derives the bound.
+//! on panels with an ellipse about them on which `f` is analytic, and `int_a^b f in (b - a) f([a, b])` on tiny ones
+//! where it is not. The chapter [`integration`](crate::book::integration) derives the bound.
 
 mod gauss;
 mod nodes;
@@ -20,8 +20,8 @@ use search::Search;
 
 /// The wanted width, and how much work it may take.
 ///
-/// The result contains the integral whatever is asked for; a tolerance only says when to stop. The width is first that of the
-/// enclosure as computed, in 128 bits; rounding to `T` adds at most 1 ulp at each end.
+/// The result contains the integral whatever is asked for; a tolerance only says when to stop. The width is first
+/// that of the enclosure as computed, in 128 bits; rounding to `T` adds at most 1 ulp at each end.
 ///
 /// ```
 /// use mean_information::quadrature::rigorous::Rigorous;
@@ -45,7 +45,8 @@ pub struct Rigorous<T> {
     pub(crate) limit: u64,
 }
 
-/// The finest relative tolerance, a 64th of the distance from 1 to the next float: then rounding to `T` makes the width.
+/// The finest relative tolerance, a 64th of the distance from 1 to the next float: then rounding to `T` makes the
+/// width.
 fn finest<T: Real>() -> T {
     T::epsilon() * T::from_parts(1, -6)
 }
@@ -70,8 +71,8 @@ impl<T: Real> Rigorous<T> {
     /// A width of at most `absolute`, or at most `relative` times the magnitude of the integral, whichever is larger.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if `absolute` is not in `[0, inf)`, `relative` not in `[0, 1)`, or both are too small to be reached:
-    /// `absolute` is 0 and `relative` below a 64th of the distance from 1 to the next float.
+    /// [`Error::OutOfRange`] if `absolute` is not in `[0, inf)`, `relative` not in `[0, 1)`, or both are too small to
+    /// be reached: `absolute` is 0 and `relative` below a 64th of the distance from 1 to the next float.
     pub fn new(absolute: T, relative: T) -> Result<Self, Error> {
         if !(absolute >= T::zero() && absolute.is_finite()) {
             return Err(Error::out_of_range("absolute tolerance", absolute.widen(), "0 or more, finite"));
@@ -99,9 +100,10 @@ impl<T: Real> Rigorous<T> {
 
     /// The integral of `f` from `from` to `to`: negative of the one from `to` to `from`, 0 if they are equal.
     ///
-    /// `f` must be defined between the ends, but at single points. It is evaluated over intervals, and over rectangles of the
-    /// complex plane, to prove that it is analytic there. Where it is not, as `√x` at 0, panels are bisected until their width
-    /// times the range of `f` is small enough: singular ends cost little, singular points inside as much as twice an end.
+    /// `f` must be defined between the ends, but at single points. It is evaluated over intervals, and over
+    /// rectangles of the complex plane, to prove that it is analytic there. Where it is not, as `√x` at 0, panels are
+    /// bisected until their width times the range of `f` is small enough: singular ends cost little, singular points
+    /// inside as much as twice an end.
     ///
     /// Error: none; the enclosure contains the integral (proved in [`integration`](crate::book::integration)).
     ///
@@ -126,7 +128,8 @@ impl<T: Real> Rigorous<T> {
         })
     }
 
-    /// The integral between two ends that need not be floats: between the nearest ones, and two slivers of the first degree.
+    /// The integral between two ends that need not be floats: between the nearest ones, and two slivers of the first
+    /// degree.
     #[allow(dead_code, reason = "for the limits")]
     pub(crate) fn between(&self, f: &impl Integrand, from: Interval<Wide>, to: Interval<Wide>) -> Integral {
         let (near, sliver_from) = split(f, from);

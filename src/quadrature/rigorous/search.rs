@@ -1,4 +1,5 @@
-//! The search for panels: from the left, each panel is enclosed by a rule, or by the range of the integrand, or cut in half.
+//! The search for panels: from the left, each panel is enclosed by a rule, or by the range of the integrand, or cut
+//! in half.
 
 use alloc::vec;
 

@@ -44,8 +44,8 @@ fn nodes_are_the_roots_of_legendre_polynomials() {
     }
 }
 
-/// The weights integrate `x^0, x^2, .., x^(n - 2)` exactly, which determines them: `sum w x^2k = 1 / (2k + 1)` lies between the
-/// sums of the stored integers and of the next ones.
+/// The weights integrate `x^0, x^2, .., x^(n - 2)` exactly, which determines them: `sum w x^2k = 1 / (2k + 1)` lies
+/// between the sums of the stored integers and of the next ones.
 #[test]
 fn weights_integrate_all_powers() {
     for rule in RULES {
@@ -99,8 +99,9 @@ impl Integrand for Beam {
     }
 }
 
-/// The two limits of the room for `z / σ = alpha`, with the evaluations they took. What both sides of the obstacle have in
-/// common, up to the smaller of `alpha` and `b`, is integrated once; the weights `1 ± t / alpha` of both sides add to 2.
+/// The two limits of the room for `z / σ = alpha`, with the evaluations they took. What both sides of the obstacle
+/// have in common, up to the smaller of `alpha` and `b`, is integrated once; the weights `1 ± t / alpha` of both
+/// sides add to 2.
 fn room(alpha: f64) -> [(Interval<Wide>, u64); 2] {
     type Value = Interval<Wide>;
     let (one, two) = (Value::constant(1.0), Value::constant(2.0));

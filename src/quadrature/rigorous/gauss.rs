@@ -13,7 +13,7 @@ const ELLIPSES: [f64; 4] = [5.0, 3.0, 2.0, 1.5];
 /// The upper half of an ellipse lies in five rectangles: from one fraction of the half axis to the other, as high as
 /// a third fraction of the other half axis, `√(1 - x^2)` or a little more at the end nearer to the middle. Outer ones
 /// first: singularities lie there.
-const RECTANGLES: [(f64, f64, f64); 5] =
+pub(super) const RECTANGLES: [(f64, f64, f64); 5] =
     [(-1.0, -0.8, 0.601), (0.8, 1.0, 0.601), (-0.8, -0.35, 0.937), (0.35, 0.8, 0.937), (-0.35, 0.35, 1.0)];
 
 /// The nodes and weights of one of the rules, as floats.

@@ -68,6 +68,23 @@ impl Integrand for Exponential {
     }
 }
 
+/// The rectangles cover the upper half of the unit disc, which half axes stretch to an ellipse: from left to right
+/// without a gap, each at least as high as the circle at its end nearer to the middle. In thousandths, exactly.
+#[test]
+fn rectangles_cover_the_ellipse() {
+    let thousandths = |x: f64| (x * 1000.0).round() as i64;
+    let mut rectangles = gauss::RECTANGLES.map(|(from, to, height)| [from, to, height].map(thousandths));
+    rectangles.sort_unstable();
+    let mut reached = -1000;
+    for [from, to, height] in rectangles {
+        assert_eq!(from, reached);
+        let nearest = if from < 0 && 0 < to { 0 } else { from.abs().min(to.abs()) };
+        assert!(height.pow(2) + nearest.pow(2) >= 1_000_000);
+        reached = to;
+    }
+    assert_eq!(reached, 1000);
+}
+
 /// Where the remainder makes most of the width: `e^x` about 0, whose integral is `e^r - e^-r`.
 #[test]
 fn the_remainder_is_within_its_bound() {

@@ -76,8 +76,8 @@ proptest! {
     #[test]
     fn differences_of_neighbours_are_exact(m in any::<u128>(), d in any::<u128>(), e in -128_i32..-126) {
         let a = positive(m | TOP, e);
-        let (below, above) = (a.m / 2 + 1, a.m);
-        let b = positive(below + d % (above - below + 1), a.e);
+        // At the lower exponent, with an odd last bit as often as not, and at least a half of `a`.
+        let b = positive(a.m.saturating_add(d >> (d & 127)), e - 1);
         prop_assert_eq!(a.add(-b, Down), a.add(-b, Up));
         prop_assert_eq!(integer(a.add(-b, Up)), integer(a) - integer(b));
     }

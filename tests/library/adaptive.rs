@@ -241,15 +241,17 @@ fn intervals_that_vanish() {
             );
             assert_eq!(estimate.status, Status::Converged, "{estimate:?}");
         }
-        // Widths and values below the normal range: the error says that digits are missing.
+        // Widths and values below the normal range: the error says that digits are missing. In units of the smallest number.
         let smallest = f64::from_bits(1);
-        for (b, height) in
-            [(smallest, 3.0), (5.0 * smallest, 0.3), (1e-310, 1e-5), (1e-200, 1e-120), (1e300, 1e-320)]
-        {
-            let estimate = settings.absolute(1e-300).integrate(|_| height, 0.0, b).unwrap();
-            assert!((estimate.value - height * b).abs() <= estimate.error, "{rule:?}, {b:e}: {estimate:?}");
-            assert!(estimate.error <= 1e-10 * height * b + 1e-315_f64.max(b * 1e-320), "{estimate:?}");
+        for (count, height) in [(1.0, 3.0), (5.0, 0.3), (7.0, 0.1), (1e7, 1e-3), (3e40, 1e-38)] {
+            let estimate = settings.absolute(1e-300).integrate(|_| height, 0.0, count * smallest).unwrap();
+            let [value, error] = [estimate.value, estimate.error].map(|x| x / smallest);
+            assert!((value - height * count).abs() <= error, "{rule:?}, {count} by {height}: {estimate:?}");
+            assert!(error <= 1e-14 * height * count + 1000.0, "{estimate:?}");
         }
+        // Values of few digits over a width that makes much of what they lack.
+        let tiny = settings.absolute(1e-9).integrate(|_| 1234.0 * smallest, 0.0, 1e300).unwrap();
+        assert!((tiny.value - 1234.0 * smallest * 1e300).abs() <= tiny.error, "{tiny:?}");
     }
 }
 
@@ -261,6 +263,9 @@ fn intervals_beyond_the_largest_width() {
     assert_eq!(flat.status, Status::Converged);
     let slope = settings.integrate(|x| x / 1e300, -1e300, 3e300).unwrap();
     assert!((slope.value - 4e300).abs() <= slope.error && slope.status == Status::Converged, "{slope:?}");
+    // Ends whose sum is no float: ∫ 2 (x / 1e308) dx.
+    let high = settings.integrate(|x| 2.0 * (x / 1e308), 1e308, 1.5e308).unwrap();
+    assert!((high.value - 1.25e308).abs() <= high.error && high.status == Status::Converged, "{high:?}");
     // A sum that is no float, of panels that are.
     let sum = settings.integrate_between(|_| 0.75, &[-f64::MAX, 0.0, f64::MAX]).unwrap();
     assert_eq!(sum.status, Status::NotFinite { lower: -f64::MAX, upper: f64::MAX });

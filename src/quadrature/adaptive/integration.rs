@@ -42,16 +42,13 @@ impl<'a, T: Real, F: FnMut(T) -> T> Integration<'a, T, F> {
             if !value.is_finite() {
                 return self.ended(value, value, not_finite(whole));
             }
-            // The rounding of the value itself is beyond reach, too.
-            let fixed = totals.fixed + T::epsilon() * value.abs();
-            let error = totals.reducible + fixed;
+            let error = totals.reducible + totals.fixed;
             let tolerance = self.settings.absolute.max(self.settings.relative * value.abs());
             if error <= tolerance {
                 return self.ended(value, error, Status::Converged);
             }
-            if fixed > tolerance && totals.reducible <= fixed {
-                let status = self.out_of_reach(fixed);
-                return self.ended(value, error, status);
+            if totals.fixed > tolerance && totals.reducible <= totals.fixed {
+                return self.ended(value, error, self.out_of_reach(totals.fixed));
             }
             if let Err(status) = self.halve(&totals) {
                 return self.ended(value, error, status);
@@ -113,8 +110,8 @@ fn not_finite<T>(stretch: Stretch<T>) -> Status<T> {
     Status::NotFinite { lower: stretch.lower, upper: stretch.upper }
 }
 
-/// The claim on a stretch: the noise, and the geometric series `d + d r + d r^2 + ... = d / (1 - r)` of the
-/// difference `d`, were each further halving to reduce it by `r`.
+/// The claim on a stretch: the noise, and the series `d + 2 d r + 3 d r^2 + ... = d / (1 - r)^2` of the difference `d`,
+/// were each further halving to reduce it by `r`, and could each err as all before it together.
 ///
 /// `r` is the slowest of three: of the bands, of `d` to that of the panel before it was halved, and of the halving
 /// before that. Where they do not fall nothing is known, and the claim is infinite: so it is in a first panel whose
@@ -130,7 +127,8 @@ fn claimed<T: Real>(reading: &Reading<T>, stretch: Stretch<T>, parent: Option<&P
     let (reducible, fixed) = if difference <= noise {
         (T::zero(), noise + difference)
     } else if slowest < T::one() {
-        (difference / (T::one() - slowest), noise)
+        let fall = T::one() - slowest;
+        (difference / (fall * fall), noise)
     } else {
         (T::infinity(), noise)
     };

@@ -170,9 +170,9 @@ impl Table {
 
 /// A bound on what rounding does to the integral over a stretch, given the mean of `|f|`.
 ///
-/// In units of the epsilon `2u`: relative to `|f|`, 1/2 each for weight, product, sum, width and last product, 2 for
-/// the integrand, and 1/2 to spare; in the argument, 2 for the node (`c ± h x` has six roundings, below `4u` of the
-/// end in all) and 2 for the integrand's own. Below the normal range, a spacing for every product and sum.
+/// In units of the epsilon `2u`: relative to `|f|`, 1/2 each for weight, product, sum, width and last product, 2 for the
+/// integrand, and 1/2 for the sum over all panels; in the argument, 2 for the node (`c ± h x` has six roundings, below
+/// `4u` of the end in all) and 2 for the integrand's own. Below the normal range, a spacing for every product and sum.
 fn noise<T: Real>(values: &[T], size: T, stretch: Stretch<T>) -> T {
     let epsilon = T::epsilon();
     let [four, five] = [4, 5].map(|k| T::from_parts(k, 0));

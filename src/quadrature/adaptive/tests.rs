@@ -1,5 +1,6 @@
 //! The tables against the equations that define the rules, in integers; what one application of a rule tells.
 
+use super::compensated::Compensated;
 use super::rule::Rule;
 use super::stretch::Stretch;
 use crate::real::Real;
@@ -194,4 +195,15 @@ fn nodes_stay_within_their_stretch() {
             assert!(truth.is_infinite() || (reading.value - truth).abs() <= reading.noise);
         }
     }
+}
+
+/// What each addition loses is kept, in a sum and where two sums meet.
+#[test]
+fn sums_keep_what_they_lose() {
+    let sum = |terms: &[f64]| terms.iter().fold(Compensated::default(), |sum, &x| sum.plus(x));
+    let (large, small) = (9007199254740992.0, 0.75);
+    assert_eq!(sum(&[large, small, small, -large]).value(), 1.5);
+    let (left, right) = (sum(&[large, small]), sum(&[small, -large, small]));
+    assert_eq!(left.merged(right).value(), 2.25);
+    assert_eq!(right.merged(Compensated::new(large)).value(), 1.5);
 }

@@ -177,7 +177,7 @@ impl InverseSensorModel for Fused {
 }
 
 /// Polar grids of fused readings tend to the limit. Between its peaks the information is monotone: down to 0 at `-b`, up to 1,
-/// down to 0; so its variation is at most 3, and that of the midpoint rule and of the last ring as in `docs/convergence.md`.
+/// down to 0; so its variation is at most 3, and the bound `(3 + 1) / 2 h / (L - h / 2)`, as `docs/convergence.md` has it.
 #[test]
 fn grids_of_repeated_scans_tend_to_their_limit() {
     let sensor = GaussianSensor::new(3.0_f64, 0.25).unwrap();
@@ -190,7 +190,7 @@ fn grids_of_repeated_scans_tend_to_their_limit() {
         for h in [0.05, 0.003] {
             let room = PolarRoom::new(Fused { sensor, scans: f64::from(scans) }, h).unwrap();
             let error = room.tally().unwrap().mean_information() - limit.lower;
-            let bound = (3.0 + 1.0) / 2.0 * h / (sensor.reach() - h / 2.0);
+            let bound = 2.0 * h / (sensor.reach() - h / 2.0);
             assert!(error.abs() <= bound, "{scans} scans, {h} m: {error:e}, {bound:e}");
         }
     }

@@ -11,6 +11,7 @@
 //! | [`Failure`] | why a command was not done |
 //! | [`output`] | numbers, tables, JSON and CSV, and where they go |
 //! | [`measures`] | what is measured of a map |
+//! | [`simulation`] | rooms, a robot in them, and the map it makes |
 //! | [`sweep`] | the measures against the size of cells |
 //! | [`convergence`] | grids of a circular room against their limit |
 //! | [`plots`] | pictures of maps, sweeps and convergence |
@@ -26,6 +27,7 @@ pub mod measures;
 pub mod output;
 pub mod plots;
 mod progress;
+pub mod simulation;
 pub mod sweep;
 
 pub use failure::Failure;

@@ -1,10 +1,6 @@
-//! The sample map in `maps` is what its code makes, and has what a sample should show.
+//! The sample map in `maps` is what `meaninfo simulate` makes, and has what a sample should show.
 
 mod common;
-#[path = "../examples/sample_room/map.rs"]
-mod map;
-#[path = "../examples/sample_room/room.rs"]
-mod room;
 
 use common::*;
 use serde_json::Value;
@@ -12,26 +8,15 @@ use serde_json::Value;
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
 const MAPS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../maps");
 
+/// `cargo run --release -- simulate --out maps/room`; the array is not kept.
 #[test]
 fn the_sample_map_is_made_again_byte_by_byte() {
-    assert_eq!(text(&read(format!("{MAPS}/room.yaml"))), map::YAML);
-    assert!(read(format!("{MAPS}/room.pgm")) == map::pgm(), "run `cargo run --example sample_room`");
-}
-
-#[test]
-fn the_walls_are_where_the_rays_meet_them() {
-    for (from, direction, distance) in [
-        ([1.3, 1.1], [-1.0, 0.0], 1.3),
-        ([4.0, 1.5], [1.0, 0.0], 5.4),
-        ([4.6, 3.6], [0.0, -1.0], 3.6),
-        ([4.6, 2.4], [1.0, 0.0], 0.6),
-        ([3.0, 5.0], [0.0, 1.0], 1.9),
-        ([7.4, 1.5], [0.6, 0.8], 1.0),
-    ] {
-        let found = room::range(from, direction);
-        assert!((found - distance).abs() < 1e-12, "from {from:?}: {found}, not {distance}");
+    let folder = Folder::new();
+    stdout(&["simulate", "--out", &folder.text_path("room")]);
+    for file in ["room.yaml", "room.pgm"] {
+        let [made, kept] = [folder.text_path(file), format!("{MAPS}/{file}")].map(read);
+        assert!(made == kept, "maps/{file} is not what `meaninfo simulate --out maps/room` makes");
     }
-    assert_eq!(room::range([9.0, 3.0], [0.0, 1.0]), f64::INFINITY);
 }
 
 #[test]

@@ -5,6 +5,7 @@ mod emmi;
 mod limit;
 mod map;
 mod metres;
+mod simulate;
 mod sweep;
 
 use crate::failure::Failure;
@@ -36,6 +37,8 @@ pub enum Command {
     Converge(converge::Arguments),
     /// The expected map of a particle filter's weighted maps, its mean information (EMMI), and that of each particle.
     Emmi(emmi::Arguments),
+    /// A simulated robot with a range sensor in a room: the map it makes, written as a ROS map and as an array.
+    Simulate(simulate::Arguments),
 }
 
 impl Command {
@@ -50,6 +53,7 @@ impl Command {
             Self::Limit(arguments) => arguments.run(),
             Self::Converge(arguments) => arguments.run(),
             Self::Emmi(arguments) => arguments.run(),
+            Self::Simulate(arguments) => arguments.run(),
         }
     }
 }

@@ -1,4 +1,5 @@
-//! Map files: what they are, and reading them into grids without taking memory that their contents do not fill.
+//! Map files: what they are, reading them into grids without taking memory that their contents do not fill, and writing
+//! them.
 
 mod cells;
 pub mod gridmap;

@@ -2,8 +2,10 @@
 //! weights.
 
 mod header;
+mod saving;
 mod stack;
 
+pub use saving::save;
 pub use stack::{WithMaps, read_stack, read_weights};
 
 use super::cells::Readable;

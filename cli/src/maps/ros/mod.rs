@@ -1,13 +1,16 @@
-//! ROS maps: a yaml file that describes an image, and the loaders' rules that turn grey levels into cells.
+//! ROS maps: a yaml file that describes an image, the loaders' rules that turn grey levels into cells, and cells into grey
+//! levels that they read as they were meant.
 
 mod description;
 mod doubts;
 mod nav2;
 mod probability;
 mod ros1;
+mod saving;
 mod shading;
 
 pub use description::Description;
+pub use saving::{QUANTISATION, SavedMap, save};
 
 use super::image::{Colours, Image};
 use super::size::Size;

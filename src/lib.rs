@@ -35,11 +35,10 @@
 //! | [`sensor`] | inverse sensor models: what a range reading says of a point | 5 |
 //! | [`build`] | maps of a circular room, maps from scans, fusion, the expected map of a filter's particles | 4, 5 |
 //! | [`limit`] | what the mean information of one scan tends to as cells shrink | 6, 7 |
-//! | [`quadrature`] | integrals of functions of one variable | |
 //! | [`estimate`] | results with an estimated error, and results with a proved enclosure | |
 //! | [`scalar`] | what integrands are written in: floats, intervals, rectangles | |
 //! | [`interval`] | intervals that contain the exact result of every operation | |
-//! | [`quadrature`] | integrals of any integrand, with the error proved | |
+//! | [`quadrature`] | integrals of functions of one variable, with the error estimated or proved | |
 //! | [`real`] | the two formats of floats | |
 //! | [`book`] | the derivation, chapter by chapter, with every claim executed | |
 //!
@@ -49,8 +48,9 @@
 //! * The same bits on every platform: integer arithmetic, and where floats are used the four operations of IEEE 754; no
 //!   elementary function of the standard library is called.
 //! * Unknown is exact: `p = 1/2`, and nothing here turns an unknown cell into an observed one.
-//! * No panic on input, except where an item says so under *Panics*: constructors return an [`Error`] that names the argument, its value and the allowed range; functions of
-//!   floats return NaN outside their domain.
+//! * The limits of Eq. 7 are within **0.501 ulp** of exact; enclosures contain the exact value, always.
+//! * No panic on input, except where an item says so under *Panics*: constructors return an [`Error`] that names the argument, its
+//!   value and the allowed range; functions of floats return NaN outside their domain.
 //!
 //! # What it does not do
 //! It reads no files and draws no pictures; the command `meaninfo` (package `mean-information-cli`) does.

@@ -167,3 +167,13 @@ fn what_cannot_be_is_refused() {
     refusal(&[&good[..], &["--plot", &plot, "--resolutions", "1e-200"]].concat());
     assert!(folder.names().is_empty());
 }
+
+/// The picture of `docs/erratum.md`.
+#[test]
+fn the_picture_of_the_erratum_is_this_plot() {
+    let folder = Folder::new();
+    let plot = folder.text_path("plot.png");
+    stdout(&["converge", "--range", "2", "--sigma", "0.2", "--grid", "cartesian", "--plot", &plot]);
+    let kept = read(concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/convergence.png"));
+    assert!(Pixels::of_png(&read(&plot)) == Pixels::of_png(&kept), "run meaninfo converge again");
+}

@@ -1,5 +1,7 @@
 //! Tallies that travel as text (feature `serde`).
 
+use mean_information::build::Hypotheses;
+use mean_information::map::{Geometry, Grid, encoding::Probability};
 use mean_information::{Tally, cell::Cell};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -20,6 +22,17 @@ proptest! {
         arrived.merge(&tally(&there));
         prop_assert_eq!(arrived, tally(&[here, there].concat()));
     }
+}
+
+/// Its sums are finer than floats, and still sums of the smallest numbers of the format.
+#[test]
+fn the_tally_of_an_expected_map_travels_too() {
+    let geometry = Geometry::new(0.25, [0.0; 2]).unwrap();
+    let map = |cells| Grid::<Probability<f32>>::new(3, 1, geometry, cells).unwrap();
+    let maps = [map(vec![0.3, 1e-30, 0.500_000_06]), map(vec![0.4, 1e-40, 0.5])];
+    let expected = Hypotheses::new(&maps, &[0.3, 0.1]).unwrap().expected_map().unwrap();
+    let text = serde_json::to_string(expected.tally()).unwrap();
+    assert_eq!(&serde_json::from_str::<Tally<f32>>(&text).unwrap(), expected.tally());
 }
 
 /// The text is a contract: other machines read it.

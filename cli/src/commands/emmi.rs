@@ -1,6 +1,7 @@
 //! `meaninfo emmi`: the mean information of the expected map of weighted maps.
 
 use super::Status;
+use super::metres::positive;
 use crate::failure::Failure;
 use crate::maps::npy::WithMaps;
 use crate::maps::{self, ArrayEncoding, MAX_CELLS, Options, Problem, Readable};
@@ -26,7 +27,7 @@ pub struct Arguments {
     #[arg(long, value_enum)]
     encoding: Option<ArrayEncoding>,
     /// The side of a cell in metres.
-    #[arg(long, value_name = "METRES", value_parser = maps::positive)]
+    #[arg(long, value_name = "METRES", value_parser = positive::<f64>)]
     resolution: Option<f64>,
     /// Refuse particles of more cells together than this before memory is taken for them.
     #[arg(long, value_name = "N", default_value_t = MAX_CELLS)]

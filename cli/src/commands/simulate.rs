@@ -1,8 +1,9 @@
 //! `meaninfo simulate`: a robot with a range sensor in a room, and the map it makes.
 
 use super::Status;
+use super::metres::positive;
 use crate::failure::Failure;
-use crate::maps::{self, Map, Options, Problem, Semantics, npy, ros};
+use crate::maps::{Map, Options, Problem, Semantics, npy, ros};
 use crate::measures::Measures;
 use crate::output::{Files, Number, Record, Report, Value, Writing, short, table, wrapped};
 use crate::progress::Progress;
@@ -40,7 +41,7 @@ pub struct Arguments {
     #[command(flatten)]
     sensor: Sensor,
     /// The side of a cell in metres.
-    #[arg(long, value_name = "METRES", default_value_t = 0.05, value_parser = maps::positive)]
+    #[arg(long, value_name = "METRES", default_value_t = 0.05, value_parser = positive::<f64>)]
     resolution: f64,
     /// Refuse a map of more cells than this; it takes up to 60 bytes for each.
     #[arg(long, value_name = "N", default_value_t = ScanMap::<f64>::MAX_CELLS)]
@@ -56,10 +57,10 @@ struct Sensor {
     #[arg(long, value_name = "N", default_value_t = 720, value_parser = clap::value_parser!(u32).range(1..=1 << 16))]
     beams: u32,
     /// How far it sees.
-    #[arg(long, value_name = "METRES", default_value_t = 4.5, value_parser = maps::positive)]
+    #[arg(long, value_name = "METRES", default_value_t = 4.5, value_parser = positive::<f64>)]
     range_max: f64,
     /// The standard deviation that the inverse sensor model (Eq. 5) takes its ranges to have.
-    #[arg(long, value_name = "METRES", default_value_t = 0.05, value_parser = maps::positive)]
+    #[arg(long, value_name = "METRES", default_value_t = 0.05, value_parser = positive::<f64>)]
     sigma: f64,
     /// The standard deviation that its ranges have; if absent, that of --sigma.
     #[arg(long, value_name = "METRES", value_parser = not_negative)]

@@ -11,7 +11,6 @@ pub mod ros;
 mod size;
 
 pub use cells::{Cells, Readable, with_grid};
-pub(crate) use options::positive;
 pub use options::{ArrayEncoding, MAX_CELLS, Mode, Options, Semantics};
 pub(crate) use problem::one_line;
 pub use problem::{Fault, Problem};

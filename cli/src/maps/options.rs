@@ -81,7 +81,7 @@ impl Default for Options {
     }
 }
 
-pub(crate) fn positive(text: &str) -> Result<f64, String> {
+fn positive(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(x) if x > 0.0 && x < f64::INFINITY => Ok(x),
         _ => Err("allowed is a positive, finite number of metres".to_owned()),

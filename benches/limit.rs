@@ -8,7 +8,11 @@
 
 use core::f64::consts::{LN_2, PI};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use mean_information::limit::{Weight, closed_form};
+use mean_information::cell::entropy;
+use mean_information::elementary::exp;
+use mean_information::limit::{Weight, adaptive, closed_form, rigorous};
+use mean_information::quadrature::adaptive::{GaussKronrod, Rule};
+use mean_information::quadrature::rigorous::Rigorous;
 use mean_information::sensor::GaussianSensor;
 use std::hint::black_box;
 
@@ -71,5 +75,30 @@ fn closed_forms(criterion: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, closed_forms);
+/// The room of the report's Fig. 4, by both integrals; and the deficit by the crate `quadrature`, without a bound.
+fn integrals(criterion: &mut Criterion) {
+    let room = GaussianSensor::new(2.0_f64, 0.2).expect("positive and finite");
+    let mut group = criterion.benchmark_group("integrals, z/σ = 10");
+    for weight in [Weight::Radial, Weight::Area] {
+        let known = closed_form(&room, weight);
+        let enclose = || rigorous(black_box(&room), weight, &Rigorous::default()).expect("a room");
+        let enclosure = enclose();
+        assert!(enclosure.contains(known) && enclosure.width() <= 2.3e-16);
+        group.bench_function(format!("rigorous, {weight:?}"), |bencher| bencher.iter(enclose));
+        let rule = GaussKronrod::new().relative(1e-12).rule(Rule::K31);
+        let estimate = || adaptive(black_box(&room), weight, &rule).expect("a room");
+        assert!((estimate().value - known).abs() <= estimate().error && estimate().evaluations <= 550);
+        group.bench_function(format!("adaptive, {weight:?}"), |bencher| bencher.iter(estimate));
+    }
+    let deficit = |t: f64| entropy(exp(-0.5 * t * t));
+    let edge = (2.0 * LN_2).sqrt();
+    let peer = || {
+        quadrature::integrate(deficit, -10.0, 0.0, 1e-12).integral
+            + quadrature::integrate(deficit, 0.0, black_box(edge), 1e-12).integral
+    };
+    assert!((1.0 - peer() / (10.0 + edge) - closed_form(&room, Weight::Radial)).abs() < 1e-12);
+    group.bench_function("crate quadrature, Radial", |bencher| bencher.iter(peer));
+}
+
+criterion_group!(benches, closed_forms, integrals);
 criterion_main!(benches);

@@ -55,7 +55,11 @@ pub(super) fn check<M: RadialModel>(model: &M) -> Result<(), Error> {
     let ratio = model.origin().widen() / model.scale().widen();
     if !(model.scale() > M::Float::zero() && ratio.is_finite() && M::Float::nearest(ratio * 1e3).is_finite())
     {
-        return Err(Error::out_of_range("range over scale", ratio, "finite, and so a thousand times it"));
+        return Err(Error::out_of_range(
+            "range over sigma",
+            ratio,
+            "finite, and so a thousand times it; the closed form takes any",
+        ));
     }
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! Radial models: what the continuous mean information integrates (Eq. 6), written once for floats, intervals and jets.
+//! Radial models: what the continuous mean information integrates (Eq. 6), written once for floats, intervals and rectangles.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -89,7 +89,9 @@ impl<T: Real> RadialModel for GaussianSensor<T> {
             let near = Piece::new(S::constant(0.0), S::constant(-TAIL), PANELS + 1);
             vec![far, near, Piece::new(S::constant(-TAIL), S::constant(TAIL) - ratio(self), 1)]
         } else {
-            vec![far, Piece::new(S::constant(0.0), -ratio::<T, S>(self), PANELS + 1)]
+            // What is far narrower than the far side counts for little beside it.
+            let panels = if ratio::<T, f64>(self) < 0.125 { 1 } else { PANELS + 1 };
+            vec![far, Piece::new(S::constant(0.0), -ratio::<T, S>(self), panels)]
         }
     }
 

@@ -76,9 +76,17 @@ pub fn rigorous<M: RadialModel>(
     })
 }
 
-/// The absolute values.
+/// The magnitudes: where a wide enclosure leaves the sign open, from 0 on.
 fn magnitude(x: Interval<Wide>) -> Interval<Wide> {
-    if x.upper() <= Interval::constant(0.0).upper() { -x } else { x }
+    let zero = Interval::constant(0.0);
+    if x.upper() <= zero.upper() {
+        -x
+    } else if x.lower() >= zero.lower() {
+        x
+    } else {
+        let positive = Interval::between(zero.lower(), Interval::<Wide>::WHOLE.upper());
+        x.hull(-x).intersection(positive)
+    }
 }
 
 /// A sixteenth of the spacing of floats below 1/2: what is finer than this the result cannot show.

@@ -166,3 +166,12 @@ pub(super) fn ln(m: u64, e: i32, below_one: bool, midpoint: Midpoint) -> bool {
         }
     })
 }
+
+/// `e^-r > midpoint` for `r` half the square of 64 `distance` over `m 2^-52`, with `t = r / ln 2` of scale 116.
+pub(super) fn gaussian(distance: impl Fn(usize) -> Ball, m: u64, t: u128, midpoint: Midpoint) -> bool {
+    decide(|fraction| {
+        let ratio = distance(fraction).divided_by(&Ball::dyadic(m, -52, fraction));
+        let (y, k) = exp_neg(ratio.times(&ratio).scaled(1, 11), t);
+        y.is_above(&Ball::dyadic(midpoint.m, midpoint.exponent + k, fraction))
+    })
+}

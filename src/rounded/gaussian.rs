@@ -3,8 +3,8 @@
 //! `r` is rational, so `e^-r` is transcendental unless `r = 0` (Lindemann): no ties.
 
 use super::big::Ball;
-use super::enclosure::{Enclosure, Midpoint};
-use super::exact::{decide, exp_neg as exact_exp_neg};
+use super::enclosure::Enclosure;
+use super::exact;
 use super::fixed::{EXP_ERROR, exp_neg, mul_high, reciprocal, shift_right};
 use super::{normalised, settle};
 use crate::real::Real;
@@ -23,15 +23,8 @@ pub(crate) fn gaussian<T: Real>(x: T, z: T, s: T) -> T {
         return T::zero();
     };
     let (y, k, t) = exp_neg(r);
-    settle(Enclosure::around(y, EXP_ERROR, -126 - k), |midpoint| is_above(distance, m, t, midpoint))
-}
-
-/// The comparison of `e^-r` with a midpoint, for a distance in units of `s = m 2^-52`, and `t = r / ln 2` of scale 116.
-pub(super) fn is_above(distance: Distance, m: u64, t: u128, midpoint: Midpoint) -> bool {
-    decide(|fraction| {
-        let ratio = distance.ball(fraction).divided_by(&Ball::dyadic(m, -52, fraction));
-        let (y, k) = exact_exp_neg(ratio.times(&ratio).scaled(1, 11), t);
-        y.is_above(&Ball::dyadic(midpoint.m, midpoint.exponent + k, fraction))
+    settle(Enclosure::around(y, EXP_ERROR, -126 - k), |midpoint| {
+        exact::gaussian(|fraction| distance.ball(fraction), m, t, midpoint)
     })
 }
 
@@ -72,7 +65,7 @@ impl Distance {
     }
 
     /// The 64th part of the distance, which must be below `2^70`.
-    fn ball(self, fraction: usize) -> Ball {
+    pub(super) fn ball(self, fraction: usize) -> Ball {
         let dyadic = |(m, e)| Ball::dyadic(m, e, fraction);
         if self.gap() <= 74 {
             // The two may be huge beside their distance: take the exact distance.

@@ -207,7 +207,9 @@ fn the_comparison_of_the_gaussian_agrees_with_both_steps() {
         let (d, exponent) = distance.cut();
         let r = gaussian::half_square(d, exponent, m).expect("below 2^10");
         let (_, _, t) = fixed::exp_neg(r);
-        assert_parted(gaussian(x, z, s), x, |midpoint| gaussian::is_above(distance, m, t, midpoint));
+        assert_parted(gaussian(x, z, s), x, |midpoint| {
+            exact::gaussian(|fraction| distance.ball(fraction), m, t, midpoint)
+        });
     }
 }
 

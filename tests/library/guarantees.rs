@@ -55,6 +55,7 @@ pub(crate) fn guarantees() -> Vec<Guarantee> {
         build::weighted_mean::<f64> => "build::weighted_mean", 0.5, Proved;
         build::ExpectedMap::<f64>::grid => "ExpectedMap::grid", 0.5, Proved;
         Particles::log_linear_pool => "Hypotheses::log_linear_pool", 0.5, Proved;
+        limit::rigorous::<GaussianSensor<f64>> => "limit::rigorous", 0.0, Proved;
         limit::closed_form::<f64> => "limit::closed_form", 0.501, Proved;
         PolarRoom::<GaussianSensor<f64>>::distance => "PolarRoom::distance", 0.5, Proved;
         CartesianRoom::<GaussianSensor<f64>>::distance => "CartesianRoom::distance", 0.5, Proved;
@@ -81,7 +82,7 @@ fn the_page_says_what_the_table_says() {
 #[test]
 fn the_page_lists_the_estimates() {
     let rows = rows("<!-- estimates -->", "<!-- end of estimates -->");
-    let functions = ["`GaussKronrod::integrate`", "`GaussKronrod::integrate_between`"];
+    let functions = ["`GaussKronrod::integrate`", "`GaussKronrod::integrate_between`", "`limit::adaptive`"];
     assert_eq!(rows.iter().map(|row| row[0]).collect::<Vec<_>>(), functions);
     for row in &rows {
         assert_eq!(row[2..4], ["the claimed error", "measured"]);

@@ -20,6 +20,13 @@ fn ulp<T: Real>(x: T) -> T {
     T::from_parts(m + 1, e) - x
 }
 
+/// Settings with which the work ends early.
+fn coarse_rules<T: Real>() -> [Rigorous<T>; 4] {
+    let few = |n| Rigorous::default().with_limit(n).expect("positive");
+    let wide = |absolute: f64| Rigorous::new(T::nearest(absolute), T::zero()).expect("not negative");
+    [few(1), few(100), wide(1e30), wide(0.125)]
+}
+
 /// Asserts that the three methods agree on a room: overlap, and width.
 fn assert_agreement<T: Real>(range: T, sigma: T) {
     let sensor = GaussianSensor::new(range, sigma).expect("positive");
@@ -30,6 +37,14 @@ fn assert_agreement<T: Real>(range: T, sigma: T) {
         let ulp = ulp(lower * T::nearest(1.0 - 1e-7));
         assert_eq!(enclosure.status, Status::Converged, "{what}");
         assert!(lower <= upper && upper - lower <= T::nearest(4.0) * ulp, "{what}: {enclosure:?}");
+        // Whatever is asked for, the enclosure holds the limit.
+        for rule in coarse_rules() {
+            let coarse = rigorous(&sensor, weight, &rule).expect("a room");
+            assert!(
+                coarse.lower <= lower && upper <= coarse.upper,
+                "{what}: {rule:?}, {coarse:?}, {enclosure:?}"
+            );
+        }
         let closed = closed_form(&sensor, weight);
         let slack = ulp + ulp;
         assert!(lower - slack <= closed && closed <= upper + slack, "{what}: {closed:e}, {enclosure:?}");
@@ -185,6 +200,10 @@ fn grids_of_repeated_scans_tend_to_their_limit() {
         let model = RepeatedScans::new(sensor, scans).unwrap();
         let limit = rigorous(&model, Weight::Radial, &Rigorous::default()).unwrap();
         assert!(limit.width() < 4.5e-16, "{limit:?}");
+        for rule in coarse_rules() {
+            let coarse = rigorous(&model, Weight::Radial, &rule).unwrap();
+            assert!(coarse.lower <= limit.lower && limit.upper <= coarse.upper, "{rule:?}, {coarse:?}");
+        }
         let estimate = adaptive(&model, Weight::Radial, &GaussKronrod::new()).unwrap();
         assert!((estimate.value - limit.lower).abs() <= estimate.error, "{estimate:?}, {limit:?}");
         for h in [0.05, 0.003] {

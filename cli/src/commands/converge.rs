@@ -25,7 +25,7 @@ pub struct Arguments {
     /// Cell sizes in metres, separated by commas; if absent, eight from a quarter of the range down.
     #[arg(long, value_name = "A,B,..", value_delimiter = ',', value_parser = positive::<f64>)]
     resolutions: Vec<f64>,
-    /// Draw both kinds of grid, their limits and the proved bands to this SVG or PNG file.
+    /// Draw both kinds of grid (so that both are counted), their limits and the proved bands to this SVG or PNG file.
     #[arg(long, value_name = "FILE.svg|png")]
     plot: Option<PathBuf>,
     #[command(flatten)]

@@ -38,7 +38,7 @@ pub struct Arguments {
     /// The wanted error relative to the deficit, 1 less the limit, for the methods adaptive and rigorous.
     #[arg(long, value_name = "T")]
     tolerance: Option<String>,
-    /// How often these methods may evaluate the integrand.
+    /// About how often these methods may evaluate the integrand; rigorous: along each piece of the beam.
     #[arg(long, value_name = "N", default_value = "100000")]
     evaluations: u64,
     #[command(flatten)]

@@ -87,7 +87,7 @@ impl<T: Real> Rigorous<T> {
         Ok(Self { absolute, relative, ..Self::default() })
     }
 
-    /// The same with a limit on the number of evaluations.
+    /// The same with a limit on the number of evaluations; some 20 are made in any case.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if it is 0.
@@ -130,7 +130,6 @@ impl<T: Real> Rigorous<T> {
 
     /// The integral between two ends that need not be floats: between the nearest ones, and two slivers of the first
     /// degree.
-    #[allow(dead_code, reason = "for the limits")]
     pub(crate) fn between(&self, f: &impl Integrand, from: Interval<Wide>, to: Interval<Wide>) -> Integral {
         let (near, sliver_from) = split(f, from);
         let (far, sliver_to) = split(f, to);
@@ -158,7 +157,6 @@ impl<T: Real> Rigorous<T> {
 }
 
 /// The float nearest to `x`, and the integral from there to `x`.
-#[allow(dead_code, reason = "for the limits")]
 fn split(f: &impl Integrand, x: Interval<Wide>) -> (f64, Interval<Wide>) {
     let near = x.lower().to_real::<f64>(Toward::Down);
     let start = Interval::constant(near);

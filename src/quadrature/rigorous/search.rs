@@ -126,6 +126,9 @@ impl<F: Integrand> Search<'_, F> {
         }
         if let Some(choice) = chooser.choose(self.f, a, b, allowed / 2.0, &mut self.evaluations) {
             let value = gauss::integrate(self.f, a, b, &choice, &mut self.evaluations);
+            if value.is_empty() {
+                return Panel::Failed(Status::NotFinite { lower: a, upper: b });
+            }
             return Panel::Enclosed { value, status: Status::Converged };
         }
         let middle = 0.5 * a + 0.5 * b;

@@ -39,6 +39,7 @@ integrand!(Logistic, x => number::<S>(1.0) / (number::<S>(1.0) + (number::<S>(-2
 integrand!(Entropy, x => x.entropy());
 integrand!(EntropyOfLogOdds, x => x.entropy_from_log_odds());
 integrand!(Odd, x => x.clone() * (-(x.clone() * x)).exp());
+integrand!(Cancelling, x => (number::<S>(1.0) / (number::<S>(1.0) + x.clone() * x)).entropy());
 integrand!(Pole, x => number::<S>(1.0) / x);
 integrand!(Undefined, x => (x - number(2.0)).sqrt());
 
@@ -249,6 +250,26 @@ fn roundings_do_not_make_it_search_for_ever() {
     let integral = Rigorous::<f64>::default().integrate(&beam(1048576.0), 0.0, 1.0).unwrap();
     assert_eq!(integral.status, Status::RoundOff);
     assert!(integral.width() < 1e-9 * integral.upper && integral.evaluations < 2000, "{integral:?}");
+}
+
+/// `1 - p` from a rounded `p`: below `10^-8` rectangles find nothing analytic, and ranges do not shrink with the
+/// panel. An absolute tolerance that 128 bits can hold is met, and a finer one is given up.
+#[test]
+fn roundings_of_the_integrand_do_not_make_it_search_for_ever() {
+    let rule = Rigorous::<f64>::new(1e-22, 0.0).unwrap();
+    let integral = rule.integrate(&Cancelling, 0.0, 1e-3).unwrap();
+    assert_eq!(integral.status, Status::Converged);
+    assert!(integral.evaluations < 2000);
+    let finest = Rigorous::<f64>::default().integrate(&Cancelling, 0.0, 1e-3).unwrap();
+    assert_eq!(finest.status, Status::EvaluationLimit);
+    assert!(finest.evaluations <= 100_000);
+    for integral in [integral, finest] {
+        assert!(holds(integral, "0.000000007445349188717191869845953532713247435892"), "{integral:?}");
+    }
+    // The tolerance, and an ulp at each end.
+    assert!(integral.width() <= 1e-22 + 2e-24);
+    // By a laxer tolerance: ten digits at the least.
+    assert!(finest.width() <= 1e-10 * finest.upper);
 }
 
 /// With few evaluations the enclosure is wide, and still one.

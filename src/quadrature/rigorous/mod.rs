@@ -51,10 +51,10 @@ fn finest<T: Real>() -> T {
     T::epsilon() * T::from_parts(1, -6)
 }
 
-/// The finest tolerance that `T` can tell, and a million evaluations.
+/// The finest tolerance that `T` can tell, and a hundred thousand evaluations.
 impl<T: Real> Default for Rigorous<T> {
     fn default() -> Self {
-        Self { absolute: T::zero(), relative: finest(), limit: 1_000_000 }
+        Self { absolute: T::zero(), relative: finest(), limit: 100_000 }
     }
 }
 

@@ -36,6 +36,8 @@ enum Panel {
     Failed(Status<f64>),
 }
 
+/// The tolerance grows by this factor when evaluations run out.
+const LAXER: f64 = 4096.0;
 /// More evaluations than a panel takes: all rectangles, the longest rule, and a few ranges.
 const MOST_EVALUATIONS: u64 = 72;
 /// A panel may take this share of the width that is left.
@@ -54,7 +56,9 @@ impl<F: Integrand> Search<'_, F> {
         let mut target = wanted(self.estimate()).min(f64::MAX) / 4.0;
         let mut value = Interval::WHOLE;
         loop {
-            let sum = self.pass(target);
+            // Half of the evaluations that are left: if they are too few, there are some for a laxer tolerance.
+            let limit = self.evaluations + self.limit.saturating_sub(self.evaluations) / 2;
+            let sum = self.pass(target, limit);
             // Each contains the integral.
             value = value.intersection(sum.value);
             let wanted = wanted(smallest_magnitude(value));
@@ -64,11 +68,12 @@ impl<F: Integrand> Search<'_, F> {
                 other => other,
             };
             // Too wide, though every panel is as narrow as was asked for: ask for more, if there is more.
-            let next = wanted.max(ROUND_OFF * sum.size) / 4.0;
-            if status != Status::RoundOff || next > target / 2.0 {
-                return Integral { value, status, evaluations: self.evaluations };
-            }
-            target = next;
+            let finer = wanted.max(ROUND_OFF * sum.size) / 4.0;
+            target = match status {
+                Status::RoundOff if finer < target / 2.0 => finer,
+                Status::EvaluationLimit if self.evaluations + MOST_EVALUATIONS < self.limit => target * LAXER,
+                _ => return Integral { value, status, evaluations: self.evaluations },
+            };
         }
     }
 
@@ -88,14 +93,14 @@ impl<F: Integrand> Search<'_, F> {
         radius * sum.abs().max(crude * DOUBT)
     }
 
-    /// The sum over panels, with a width of about `target`.
-    fn pass(&mut self, target: f64) -> Sum {
+    /// The sum over panels, with a width of about `target`, from evaluations up to a limit.
+    fn pass(&mut self, target: f64, limit: u64) -> Sum {
         let mut left = target;
         let mut sum = Sum { value: Interval::constant(0.0), size: 0.0, status: Status::Converged };
         let mut chooser = Chooser::new();
         let mut panels = vec![(self.from, self.to)];
         while let Some((a, b)) = panels.pop() {
-            let limited = self.evaluations + panels.len() as u64 + MOST_EVALUATIONS > self.limit;
+            let limited = self.evaluations + panels.len() as u64 + MOST_EVALUATIONS > limit;
             match self.panel(&mut chooser, a, b, left * SHARE, limited) {
                 Panel::Enclosed { value, status } => {
                     left -= width(value).min(left * SHARE);

@@ -20,6 +20,9 @@ use num_traits::{One, Zero};
 /// **Error**: [`Estimate::error`], an estimate: the sum of those of the pieces ([`GaussKronrod`]), and the rounding of the last steps.
 /// Measured: never below the true error in 10 000 random rooms, both weights and formats.
 ///
+/// In `f32` the entropy of an occupancy next to 1 is mostly rounding; where that hides how the integrand runs, the status says so
+/// ([`Status::RoundOff`], [`Status::Unresolved`]), and the claim may be infinite. The closed form has no such limits.
+///
 /// Special case: 0, exactly, for a model that observes nothing.
 ///
 /// # Errors

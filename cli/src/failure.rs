@@ -35,6 +35,13 @@ impl From<Problem> for Failure {
     }
 }
 
+impl From<mean_information::Error> for Failure {
+    /// The library refuses what it was asked for, not a file.
+    fn from(error: mean_information::Error) -> Self {
+        Self::Usage(error.to_string())
+    }
+}
+
 impl From<clap::Error> for Failure {
     /// The first paragraphs of clap's message, in one line, without its usage and its advice to ask for help.
     fn from(error: clap::Error) -> Self {

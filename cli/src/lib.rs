@@ -14,7 +14,8 @@
 //! | [`simulation`] | rooms, a robot in them, and the map it makes |
 //! | [`sweep`] | the measures against the size of cells |
 //! | [`convergence`] | grids of a circular room against their limit |
-//! | [`plots`] | pictures of maps, sweeps and convergence |
+//! | [`plots`] | pictures of maps, curves, sweeps and convergence |
+//! | [`paper`] | the figures and the claims of the report |
 //! | [`commands`] | the arguments, and what they ask for |
 
 mod cell_cache;
@@ -25,6 +26,7 @@ pub mod hex_float;
 pub mod maps;
 pub mod measures;
 pub mod output;
+pub mod paper;
 pub mod plots;
 mod progress;
 pub mod simulation;

@@ -3,6 +3,7 @@
 mod common;
 
 use common::*;
+use mean_information_cli::output::Files;
 use std::fs;
 use std::io;
 use std::process::{Command, Stdio};
@@ -214,4 +215,31 @@ fn a_full_disk_is_an_error() {
         Command::new(env!("CARGO_BIN_EXE_meaninfo")).args(["map", &map]).stdout(full).output().unwrap();
     assert_eq!(output.status.code(), Some(2));
     assert!(text(&output.stderr).starts_with("meaninfo: standard output: "));
+}
+
+/// A folder is made with the files in it, or not at all.
+#[test]
+fn a_folder_comes_and_goes_with_its_files() {
+    let folder = Folder::new();
+    let files = |names: &[&str]| {
+        let mut files = Files::new();
+        files.make_folder(&folder.path("new")).unwrap();
+        for name in names {
+            files.add(&folder.path("new").join(name), b"contents".to_vec());
+        }
+        files
+    };
+    files(&["a", "no/b"]).write().unwrap_err();
+    files(&["a", "a"]).write().unwrap_err();
+    assert_eq!(folder.names(), [""; 0]);
+    for names in [["a", "b"], ["b", "c"]] {
+        files(&names).write().unwrap();
+    }
+    let mut names: Vec<_> =
+        fs::read_dir(folder.path("new")).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    names.sort();
+    assert_eq!(names, ["a", "b", "c"]);
+    for bad in ["new/a", "no/such"] {
+        assert!(Files::new().make_folder(&folder.path(bad)).is_err(), "{bad}");
+    }
 }

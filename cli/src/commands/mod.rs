@@ -5,6 +5,7 @@ mod emmi;
 mod limit;
 mod map;
 mod metres;
+mod paper;
 mod simulate;
 mod sweep;
 
@@ -39,6 +40,8 @@ pub enum Command {
     Emmi(emmi::Arguments),
     /// A simulated robot with a range sensor in a room: the map it makes, written as a ROS map and as an array.
     Simulate(simulate::Arguments),
+    /// Everything in the report, computed again: its five figures, its claims as a table, and a page with both.
+    Paper(paper::Arguments),
 }
 
 impl Command {
@@ -54,6 +57,7 @@ impl Command {
             Self::Converge(arguments) => arguments.run(),
             Self::Emmi(arguments) => arguments.run(),
             Self::Simulate(arguments) => arguments.run(),
+            Self::Paper(arguments) => arguments.run(),
         }
     }
 }

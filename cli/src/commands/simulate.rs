@@ -81,10 +81,9 @@ impl Arguments {
         let room = self.room.room();
         let poses = self.poses.map_or(room.poses, |poses| poses as usize);
         self.check_work(poses)?;
-        let refused = |error: mean_information::Error| Failure::Usage(error.to_string());
         let scanner =
             Scanner { beams: self.sensor.beams, maximum_range: self.sensor.range_max, noise: self.noise() };
-        let journey = Journey::through(&room, &scanner, poses, self.drift, self.seed).map_err(refused)?;
+        let journey = Journey::through(&room, &scanner, poses, self.drift, self.seed)?;
         let map = self.map(&journey)?;
         let files = Named { yaml: &yaml, image: &image, array: &array };
         let (saved, read) = files.save(&map, &self.comment())?;
@@ -110,16 +109,16 @@ impl Arguments {
             mean_information::Error::TooManyCells { .. } => Failure::Usage(format!(
                 "{error}; give a larger --resolution, a smaller --range-max, or raise --max-cells"
             )),
-            error => Failure::Usage(error.to_string()),
+            error => error.into(),
         };
-        let mut map = ScanMap::new(self.resolution).map_err(refused)?.with_max_cells(self.max_cells);
+        let mut map = ScanMap::new(self.resolution)?.with_max_cells(self.max_cells);
         let progress = Progress::new(journey.poses.len());
         for (index, scan) in journey.scans().enumerate() {
             progress.begin(&format!("scan {index}"));
-            simulation::insert(&mut map, &scan.map_err(refused)?, self.sensor.sigma).map_err(refused)?;
+            simulation::insert(&mut map, &scan?, self.sensor.sigma).map_err(refused)?;
             progress.done();
         }
-        map.probabilities().map_err(refused)
+        Ok(map.probabilities()?)
     }
 
     fn noise(&self) -> f64 {

@@ -11,6 +11,7 @@ use tempfile::{Builder, TempPath};
 /// The files a command will write, and those it has read.
 #[derive(Debug, Default)]
 pub struct Files {
+    folder: Option<PathBuf>,
     outputs: Vec<(PathBuf, Vec<u8>)>,
     inputs: Vec<PathBuf>,
 }
@@ -26,6 +27,26 @@ impl Files {
         self.inputs.extend(inputs);
     }
 
+    /// Makes this folder before the files are written, if there is none; if they cannot be, it goes again.
+    ///
+    /// # Errors
+    /// A name that something else has, or in a folder that does not exist.
+    pub fn make_folder(&mut self, folder: &Path) -> Result<(), Failure> {
+        let problem = |message: &str| Err(Problem::new(folder, message).into());
+        let parent = folder.parent().filter(|parent| !parent.as_os_str().is_empty());
+        if folder.is_dir() {
+            return Ok(());
+        }
+        if fs::symlink_metadata(folder).is_ok() {
+            return problem("is not a folder; give the name of one");
+        }
+        if !parent.unwrap_or(Path::new(".")).is_dir() {
+            return problem("is to lie in a folder that does not exist; make that first");
+        }
+        self.folder = Some(folder.to_owned());
+        Ok(())
+    }
+
     /// Adds a file to write.
     pub fn add(&mut self, path: &Path, contents: Vec<u8>) {
         self.outputs.push((path.to_owned(), contents));
@@ -37,6 +58,15 @@ impl Files {
     /// A file that is an input, is named twice, is a directory, device, stream or a link to nothing, or may not be
     /// written. Then no file has been touched, unless a rename itself failed after another had been done.
     pub fn write(self) -> Result<(), Failure> {
+        let Some(folder) = &self.folder else { return self.write_all() };
+        fs::create_dir(folder).map_err(|e| Problem::new(folder, format!("cannot be made: {e}")))?;
+        self.write_all().inspect_err(|_| {
+            // Only if it is empty, as it is unless a rename failed after another.
+            let _ = fs::remove_dir(folder);
+        })
+    }
+
+    fn write_all(&self) -> Result<(), Failure> {
         let inputs: Vec<_> = self.inputs.iter().filter_map(|path| fs::canonicalize(path).ok()).collect();
         let mut staged: Vec<(PathBuf, TempPath)> = Vec::new();
         for (path, contents) in &self.outputs {

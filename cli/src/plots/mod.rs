@@ -4,13 +4,19 @@
 mod axis;
 mod bitmap;
 mod canvas;
+mod chart;
 mod convergence;
 mod heat_map;
+mod panels;
 mod scale;
+mod svg;
 mod sweep;
 
+pub use chart::{Chart, Colour, Curve, Panel, Scale};
 pub use convergence::ConvergencePlot;
 pub use heat_map::HeatMap;
+pub use panels::{MapPanel, panels};
+pub use svg::{Svg, escaped};
 pub use sweep::SweepPlot;
 
 use crate::failure::Failure;

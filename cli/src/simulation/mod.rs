@@ -4,12 +4,14 @@
 //! Gaussian noise from a seeded generator. The scans are inserted into a map at the poses where the robot believes it
 //! is, which [drift](trajectory::drifted) from the true ones. The same numbers give the same bits on every platform.
 
-pub mod random;
+mod filter;
+mod random;
 mod rooms;
 mod scanner;
 mod shapes;
 pub mod trajectory;
 
+pub use filter::{Filter, Settings};
 pub use random::Random;
 pub use rooms::{Room, RoomName};
 pub use scanner::{Readings, Scanner};

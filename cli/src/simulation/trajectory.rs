@@ -49,11 +49,7 @@ impl Leg {
 }
 
 /// Where a robot that was at `poses` believes to be by its odometry: the first pose is known, and each way from one to
-/// the next is measured in the robot's own frame with an error.
-///
-/// After `d` metres of way, the errors ahead and aside are normal with standard deviation `drift √d` metres, and that of
-/// the heading with `drift √d` radians: a random walk, which adds up by composing the poses. Without drift the poses are
-/// as they are.
+/// the next is [measured](Motion::measured). Without drift the poses are as they are.
 ///
 /// # Errors
 /// A drift that is negative or not finite.
@@ -66,30 +62,61 @@ pub fn drifted(poses: &[Pose], drift: f64, random: &mut Random) -> Result<Vec<Po
         if drift == 0.0 {
             believed.push(ends[1]);
         } else if let Some(last) = believed.last() {
-            believed.push(moved(last, &ends[0], &ends[1], drift, random)?);
+            let motion = Motion::between(&ends[0], &ends[1])?;
+            believed.push(motion.measured(drift, random).from(last)?);
         }
     }
     Ok(believed)
 }
 
-/// `believed` after the way between two poses, measured with an error.
-fn moved(believed: &Pose, start: &Pose, end: &Pose, drift: f64, random: &mut Random) -> Result<Pose, Error> {
-    let ([x0, y0], [x1, y1]) = (start.position(), end.position());
-    let (dx, dy) = (x1 - x0, y1 - y0);
-    let deviation = drift * sqrt(sqrt(dx * dx + dy * dy));
-    let mut measured = |exact: f64| exact + deviation * random.normal();
-    // Into the robot's frame, and out of the one it believes to be in.
-    let heading = Direction::new(&[start.theta()])?;
-    let ahead = measured(dx * heading.cos() + dy * heading.sin());
-    let aside = measured(dy * heading.cos() - dx * heading.sin());
-    let turn = measured(end.theta() - start.theta());
-    let heading = Direction::new(&[believed.theta()])?;
-    let [x, y] = believed.position();
-    Pose::new(
-        x + ahead * heading.cos() - aside * heading.sin(),
-        y + ahead * heading.sin() + aside * heading.cos(),
-        believed.theta() + turn,
-    )
+/// The way from one pose to the next, in the robot's own frame at the first.
+#[derive(Clone, Copy, Debug)]
+pub struct Motion {
+    ahead: f64,
+    aside: f64,
+    turn: f64,
+}
+
+impl Motion {
+    /// The way between two poses.
+    ///
+    /// # Errors
+    /// Never for poses, whose numbers are finite.
+    pub fn between(start: &Pose, end: &Pose) -> Result<Self, Error> {
+        let ([x0, y0], [x1, y1]) = (start.position(), end.position());
+        let (dx, dy) = (x1 - x0, y1 - y0);
+        let heading = Direction::new(&[start.theta()])?;
+        Ok(Self {
+            ahead: dx * heading.cos() + dy * heading.sin(),
+            aside: dy * heading.cos() - dx * heading.sin(),
+            turn: end.theta() - start.theta(),
+        })
+    }
+
+    /// The way as odometry measures it.
+    ///
+    /// On `d` metres, the errors ahead and aside are normal with standard deviation `drift √d` metres, and that of the
+    /// turn with `drift √d` radians: a random walk, which adds up by composing the poses.
+    #[must_use]
+    pub fn measured(&self, drift: f64, random: &mut Random) -> Self {
+        let deviation = drift * sqrt(sqrt(self.ahead * self.ahead + self.aside * self.aside));
+        let mut measured = |exact: f64| exact + deviation * random.normal();
+        Self { ahead: measured(self.ahead), aside: measured(self.aside), turn: measured(self.turn) }
+    }
+
+    /// Where it leads from a pose.
+    ///
+    /// # Errors
+    /// A place or heading that is not finite.
+    pub fn from(&self, start: &Pose) -> Result<Pose, Error> {
+        let heading = Direction::new(&[start.theta()])?;
+        let [x, y] = start.position();
+        Pose::new(
+            x + self.ahead * heading.cos() - self.aside * heading.sin(),
+            y + self.ahead * heading.sin() + self.aside * heading.cos(),
+            start.theta() + self.turn,
+        )
+    }
 }
 
 #[cfg(test)]
@@ -127,6 +154,24 @@ mod tests {
         for variance in [ahead, heading] {
             let part = variance / f64::from(robots) / (drift * drift * 9.0);
             assert!((part - 1.0).abs() < tolerance, "{part}");
+        }
+    }
+
+    /// Without an error the way leads from the first pose to the second, up to rounding: numbers up to 16, and the
+    /// squares of a cosine and a sine, each within an ulp.
+    #[test]
+    fn the_way_between_two_poses_leads_to_the_second() {
+        let mut random = Random::new(13);
+        for _ in 0..100 {
+            let mut pose = || {
+                let [x, y] = [random.between(-6.0, 9.0), random.between(-8.0, 3.0)];
+                Pose::new(x, y, random.between(-7.0, 7.0)).unwrap()
+            };
+            let [start, end] = [pose(), pose()];
+            let there = Motion::between(&start, &end).unwrap().from(&start).unwrap();
+            let off = |a: f64, b: f64| (a - b).abs() > 16.0 * 16.0 * f64::EPSILON;
+            assert!(!off(there.theta(), end.theta()));
+            assert!((0..2).all(|k| !off(there.position()[k], end.position()[k])), "{there:?} {end:?}");
         }
     }
 

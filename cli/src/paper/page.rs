@@ -1,0 +1,66 @@
+//! The page: text, figures and table in one file that needs no other.
+
+use super::{Claim, Figure, Paper, Verdict};
+use crate::plots::escaped;
+
+const STYLE: &str = include_str!("page.css");
+
+pub(super) fn page(paper: &Paper) -> String {
+    let figures: String = paper.figures.iter().map(figure).collect();
+    let claims: String = paper.claims.iter().map(claim).collect();
+    let count = |verdict| paper.claims.iter().filter(|claim| claim.verdict == verdict).count();
+    let [pass, corrected, fail] = [Verdict::Pass, Verdict::Corrected, Verdict::Fail].map(count);
+    format!(
+        r##"<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8"/>
+<meta name="viewport" content="width=device-width, initial-scale=1"/>
+<title>The mean information of occupancy maps, reproduced</title>
+<style>
+{STYLE}</style>
+</head>
+<body>
+<main>
+<h1>The mean information of occupancy maps, reproduced</h1>
+<p>The figures and claims of J.-L. Blanco, <cite>Derivation of an Expression for the Mean Information Maximum Value</cite>
+(technical report, University of Malaga), computed again by <code>meaninfo paper</code>. Maps are made of simulated scans;
+white is free, black is occupied, blue-grey is unknown. Every number on this page is computed as the page is made, and is the
+same on every run and machine.</p>
+<p>{} claims: {pass} hold as they stand, {corrected} are corrected, {fail} failed. <a href="#claims">The table</a> has them.</p>
+{figures}<section id="claims">
+<h2>What can be checked</h2>
+<table>
+<caption>Pass: the claim holds as it stands. Corrected: it does not, and what holds instead was checked.</caption>
+<thead><tr><th scope="col">In the report</th><th scope="col">Claim</th><th scope="col">Measured</th><th scope="col">Verdict</th></tr></thead>
+<tbody>
+{claims}</tbody>
+</table>
+</section>
+</main>
+</body>
+</html>
+"##,
+        paper.claims.len()
+    )
+}
+
+fn figure(figure: &Figure) -> String {
+    let Figure { file, title, should, shows, svg } = figure;
+    let id = file.trim_end_matches(".svg");
+    let [title, should, shows] = [title, should, shows.as_str()].map(escaped);
+    format!(
+        "<section id=\"{id}\">\n<h2>{title}</h2>\n<figure>\n<div class=\"sheet\" tabindex=\"0\" role=\"group\" aria-label=\"{title}\">\n\
+         {svg}</div>\n<figcaption>\n<dl>\n<dt>What the report says it shows</dt>\n<dd>{should}</dd>\n<dt>What it shows here</dt>\n\
+         <dd>{shows}</dd>\n</dl>\n</figcaption>\n</figure>\n</section>\n"
+    )
+}
+
+fn claim(claim: &Claim) -> String {
+    let Claim { place, claim, measured, verdict } = claim;
+    let [place, claim, measured] = [place, claim, measured.as_str()].map(escaped);
+    let verdict = verdict.name();
+    format!(
+        "<tr><td>{place}</td><td>{claim}</td><td>{measured}</td><td class=\"{verdict}\">{verdict}</td></tr>\n"
+    )
+}

@@ -1,0 +1,203 @@
+//! Curves in panels over one horizontal axis.
+
+use super::axis::{Axis, power_of_ten};
+use super::scale::ticks;
+use super::{Drawing, LABEL, TITLE};
+use crate::output::short;
+use plotters::coord::Shift;
+use plotters::prelude::*;
+
+const PANEL_HEIGHT: u32 = 350;
+const TITLE_HEIGHT: u32 = 36;
+/// What is left of a panel's height between its axes.
+const PLOT_HEIGHT: f64 = 275.0;
+/// The heights of a line of the legend and of what is around it.
+const LEGEND: [f64; 2] = [22.0, 26.0];
+/// The margin on either side of the points, as a part of their span.
+const MARGINS: [f64; 2] = [0.02, 0.06];
+
+/// Panels below each other.
+#[derive(Debug)]
+pub struct Chart<const PANELS: usize> {
+    /// What it shows.
+    pub title: String,
+    /// What is along the horizontal axis.
+    pub horizontal: &'static str,
+    /// The scale of that axis.
+    pub scale: Scale,
+    /// From top to bottom.
+    pub panels: [Panel; PANELS],
+}
+
+/// How numbers lie along an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scale {
+    /// Equal distances for equal differences.
+    Linear,
+    /// Equal distances for equal ratios; numbers must be positive.
+    Logarithmic,
+}
+
+/// Curves with one vertical axis.
+#[derive(Debug)]
+pub struct Panel {
+    /// What is along the vertical axis.
+    pub vertical: &'static str,
+    /// Its scale.
+    pub scale: Scale,
+    /// The curves; at least one point among them.
+    pub curves: Vec<Curve>,
+    /// Places on the horizontal axis that are marked, with a name.
+    pub marks: Vec<(f64, &'static str)>,
+}
+
+/// Points that are connected.
+#[derive(Debug)]
+pub struct Curve {
+    /// Its name in the legend.
+    pub name: String,
+    /// Its colour.
+    pub colour: Colour,
+    /// Whether each point gets a dot.
+    pub dots: bool,
+    /// From left to right.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// The colours of curves, which are told apart on white and on black paper, and without seeing red or green.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Colour {
+    /// The first.
+    Blue,
+    /// The second.
+    Orange,
+    /// The third.
+    Grey,
+}
+
+impl Colour {
+    fn rgb(self) -> RGBColor {
+        match self {
+            Self::Blue => RGBColor(0, 90, 170),
+            Self::Orange => RGBColor(190, 75, 0),
+            Self::Grey => RGBColor(120, 120, 120),
+        }
+    }
+}
+
+impl Scale {
+    fn place(self, x: f64) -> f64 {
+        match self {
+            Self::Linear => x,
+            Self::Logarithmic => libm::log10(x),
+        }
+    }
+
+    /// The axis of numbers at these places, with a part of it free at its end.
+    fn axis(self, places: impl Iterator<Item = f64>, margin: f64, free: f64) -> Axis {
+        let (low, high) =
+            places.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        let span = (high - low).max(1e-9);
+        let range = low - margin * span..high + (margin + free) * span;
+        let ticks = match self {
+            Self::Linear => ticks(range.start, high + margin * span, 7).into_iter().map(|(x, _)| x).collect(),
+            Self::Logarithmic => {
+                let digits: &[f64] = if span > 3.5 { &[1.0] } else { &[1.0, 2.0, 5.0] };
+                let decades = range.start.floor() as i32..=range.end.ceil() as i32;
+                let ticks = decades.flat_map(|n| digits.iter().map(move |d| f64::from(n) + libm::log10(*d)));
+                ticks.filter(|x| (range.start..=high + margin * span).contains(x)).collect()
+            }
+        };
+        Axis { range, ticks }
+    }
+
+    fn label(self, place: f64) -> String {
+        match self {
+            Self::Linear => short(place),
+            Self::Logarithmic if place.fract() == 0.0 => power_of_ten(place as i32),
+            Self::Logarithmic => short(libm::exp10(place)),
+        }
+    }
+}
+
+impl<const PANELS: usize> Drawing for Chart<PANELS> {
+    const SIZE: (u32, u32) = (900, TITLE_HEIGHT + PANELS as u32 * PANEL_HEIGHT);
+
+    fn draw_on<B: DrawingBackend>(
+        &self,
+        paper: &DrawingArea<B, Shift>,
+    ) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
+        paper.fill(&WHITE)?;
+        let paper = paper.titled(&self.title, TITLE.into_font().color(&BLACK))?;
+        for (area, panel) in paper.split_evenly((PANELS, 1)).iter().zip(&self.panels) {
+            self.draw_panel(area, panel)?;
+        }
+        Ok(())
+    }
+}
+
+impl<const PANELS: usize> Chart<PANELS> {
+    fn draw_panel<B: DrawingBackend>(
+        &self,
+        area: &DrawingArea<B, Shift>,
+        panel: &Panel,
+    ) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
+        let all = || self.panels.iter().flat_map(|panel| &panel.curves).flat_map(|curve| &curve.points);
+        let own = || panel.curves.iter().flat_map(|curve| &curve.points);
+        let horizontal = self.scale.axis(all().map(|&(x, _)| self.scale.place(x)), MARGINS[0], 0.0);
+        // The legend takes a part of the height; of the points' span, that much more.
+        let legend = (LEGEND[0] * panel.curves.len() as f64 + LEGEND[1]) / PLOT_HEIGHT;
+        let free = legend / (1.0 - legend) * (1.0 + 2.0 * MARGINS[1]);
+        let vertical = panel.scale.axis(own().map(|&(_, y)| panel.scale.place(y)), MARGINS[1], free);
+        let (bottom, top) = (vertical.range.start, vertical.range.end);
+        let mut chart = ChartBuilder::on(area)
+            .margin(12)
+            .margin_right(28)
+            .set_label_area_size(LabelAreaPosition::Left, 104)
+            .set_label_area_size(LabelAreaPosition::Bottom, 56)
+            .build_cartesian_2d(horizontal, vertical)?;
+        chart
+            .configure_mesh()
+            .max_light_lines(0)
+            .bold_line_style(RGBColor(220, 220, 220))
+            .axis_style(BLACK)
+            .label_style(LABEL)
+            .axis_desc_style(LABEL)
+            .x_desc(self.horizontal)
+            .y_desc(panel.vertical)
+            .x_label_formatter(&|place| self.scale.label(*place))
+            .y_label_formatter(&|place| panel.scale.label(*place))
+            .draw()?;
+        for &(x, name) in &panel.marks {
+            let x = self.scale.place(x);
+            let line = [(x, bottom), (x, top)];
+            chart.draw_series(DashedLineSeries::new(line, 5, 5, BLACK.stroke_width(1)))?;
+            let style = LABEL.into_font().color(&BLACK);
+            let foot = EmptyElement::at((x, bottom + 0.08 * (top - bottom)));
+            chart.draw_series([foot + Text::new(name, (6, 0), style)])?;
+        }
+        for curve in &panel.curves {
+            let (colour, dots) = (curve.colour.rgb(), curve.dots);
+            let points: Vec<_> =
+                curve.points.iter().map(|&(x, y)| (self.scale.place(x), panel.scale.place(y))).collect();
+            chart
+                .draw_series(LineSeries::new(points.iter().copied(), colour.stroke_width(2)))?
+                .label(&*curve.name)
+                .legend(move |at| {
+                    EmptyElement::at(at)
+                        + PathElement::new([(0, 0), (20, 0)], colour.stroke_width(2))
+                        + Circle::new((10, 0), if dots { 4 } else { 0 }, colour.filled())
+                });
+            if dots {
+                chart.draw_series(points.into_iter().map(|point| Circle::new(point, 4, colour.filled())))?;
+            }
+        }
+        chart
+            .configure_series_labels()
+            .position(SeriesLabelPosition::UpperRight)
+            .background_style(WHITE)
+            .border_style(RGBColor(160, 160, 160))
+            .label_font(LABEL)
+            .draw()
+    }
+}

@@ -1,0 +1,164 @@
+//! Maps side by side, all of one piece of the world: white is free, black is occupied, blue-grey is unknown.
+
+use super::bitmap::Bitmap;
+use super::drawing_failure;
+use super::svg::Svg;
+use crate::failure::Failure;
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
+use mean_information::Real;
+use mean_information::map::{Encoding, Grid};
+
+const WIDTH: u32 = 900;
+const GAP: f64 = 16.0;
+/// For a title and a line of text above a map.
+const TITLES: f64 = 50.0;
+/// A cell is drawn as a square of pixels, so many that the map has about this many pixels a side: viewers that smooth
+/// what they enlarge would blur it.
+const PIXELS: usize = 1000;
+const UNKNOWN: [u8; 3] = [176, 190, 206];
+const PATH: &str = "#BE4B00";
+
+/// A map with its title and what is to be said of it.
+#[derive(Debug)]
+pub struct MapPanel {
+    title: String,
+    text: String,
+    /// The upper row first.
+    png: Vec<u8>,
+    /// Left, lower, right and upper end of the map, in metres.
+    extent: [f64; 4],
+    /// Where the sensor was, in metres.
+    places: Vec<[f64; 2]>,
+}
+
+impl MapPanel {
+    /// The panel of a grid.
+    ///
+    /// # Errors
+    /// None is known, but for a grid without cells.
+    pub fn new<E: Encoding>(grid: &Grid<E>, title: &str, text: String) -> Result<Self, Failure> {
+        let (width, height) = (grid.width(), grid.height());
+        let zoom = (PIXELS / width.max(height).max(1)).max(1);
+        let mut picture = Bitmap::new((width * zoom) as u32, (height * zoom) as u32);
+        for (y, row) in (0..height).rev().flat_map(|row| std::iter::repeat_n(row, zoom)).enumerate() {
+            for (column, &stored) in grid.row(row).unwrap_or_default().iter().enumerate() {
+                let colour = colour(E::occupancy(stored).map(Real::widen));
+                for x in column * zoom..(column + 1) * zoom {
+                    picture.paint(x as i32, y as i32, colour);
+                }
+            }
+        }
+        let (side, [left, lower]) = (grid.geometry().resolution(), grid.geometry().origin());
+        let extent = [left, lower, left + width as f64 * side, lower + height as f64 * side];
+        let png = picture.png().map_err(drawing_failure)?;
+        Ok(Self { title: title.to_owned(), text, png, extent, places: Vec::new() })
+    }
+
+    /// Marks where the sensor was.
+    #[must_use]
+    pub fn with_places(self, places: Vec<[f64; 2]>) -> Self {
+        Self { places, ..self }
+    }
+}
+
+fn colour(occupancy: Option<f64>) -> [u8; 3] {
+    match occupancy {
+        Some(p) if p != 0.5 => [(255.0 * (1.0 - p)).round() as u8; 3],
+        _ => UNKNOWN,
+    }
+}
+
+/// The panels in rows of so many, with a scale.
+pub fn panels(panels: &[MapPanel], columns: usize) -> Svg {
+    let ends =
+        |k: usize, first: f64, of: fn(f64, f64) -> f64| panels.iter().map(|p| p.extent[k]).fold(first, of);
+    let [left, lower] = [0, 1].map(|k| ends(k, f64::INFINITY, f64::min));
+    let [right, upper] = [2, 3].map(|k| ends(k, f64::NEG_INFINITY, f64::max));
+    let width = (f64::from(WIDTH) - GAP * (columns as f64 + 1.0)) / columns as f64;
+    // Pixels per metre.
+    let scale = width / (right - left);
+    let height = scale * (upper - lower);
+    let rows = panels.len().div_ceil(columns);
+    let mut sheet = Svg::new(WIDTH, (rows as f64 * (TITLES + height + GAP) + 36.0) as u32);
+    for (index, panel) in panels.iter().enumerate() {
+        let x = GAP + (index % columns) as f64 * (width + GAP);
+        let y = (index / columns) as f64 * (TITLES + height + GAP);
+        sheet.add_text(x + width / 2.0, y + 20.0, "bold", &panel.title);
+        sheet.add_text(x + width / 2.0, y + 42.0, "normal", &panel.text);
+        let top = y + TITLES;
+        let [r, g, b] = UNKNOWN;
+        sheet.add(&format!(
+            r#"<rect x="{x:.2}" y="{top:.2}" width="{width:.2}" height="{height:.2}" fill="rgb({r},{g},{b})"/>"#
+        ));
+        let at = |[px, py]: [f64; 2]| [x + scale * (px - left), top + scale * (upper - py)];
+        let ([image_x, image_y], [far_x, far_y]) =
+            (at([panel.extent[0], panel.extent[3]]), at([panel.extent[2], panel.extent[1]]));
+        sheet.add(&format!(
+            r#"<image x="{image_x:.2}" y="{image_y:.2}" width="{:.2}" height="{:.2}" preserveAspectRatio="none" style="image-rendering:pixelated" href="data:image/png;base64,{}"/>"#,
+            far_x - image_x,
+            far_y - image_y,
+            BASE64_STANDARD.encode(&panel.png)
+        ));
+        for [px, py] in panel.places.iter().map(|&place| at(place)) {
+            sheet.add(&format!(r#"<circle cx="{px:.2}" cy="{py:.2}" r="5" fill="{PATH}"/>"#));
+        }
+    }
+    let y = rows as f64 * (TITLES + height + GAP) + 8.0;
+    sheet.add(&format!(
+        r##"<path d="M{GAP} {:.2}v10M{GAP} {y:.2}h{scale:.2}m0 -5v10" stroke="#000000" fill="none"/>"##,
+        y - 5.0
+    ));
+    sheet.add_text(GAP + scale + 24.0, y + 6.0, "normal", "1 m");
+    sheet
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mean_information::map::Geometry;
+    use mean_information::map::encoding::Probability;
+
+    /// Two maps of one world: each image lies where its map does, on the same scale.
+    #[test]
+    fn maps_lie_where_they_are() {
+        let map = |origin, width: usize| {
+            let geometry = Geometry::new(0.5, origin).unwrap();
+            let cells = vec![0.25; width * 2];
+            let grid = Grid::<Probability<f64>>::new(width, 2, geometry, cells).unwrap();
+            MapPanel::new(&grid, "a map", "of cells".to_owned()).unwrap()
+        };
+        let sheet = panels(&[map([1.0, 2.0], 4).with_places(vec![[2.0, 2.5]]), map([3.0, 1.0], 6)], 2);
+        let text = sheet.document("two maps");
+        let document = roxmltree::Document::parse(&text).unwrap();
+        let number =
+            |node: &roxmltree::Node, name: &str| node.attribute(name).unwrap().parse::<f64>().unwrap();
+        let nodes = |tag: &'static str| document.descendants().filter(move |node| node.has_tag_name(tag));
+        let images: Vec<_> = nodes("image").collect();
+        // The world is 5 m by 2 m, in panels of 426 pixels: 85.2 pixels per metre.
+        let scale = (f64::from(WIDTH) - 3.0 * GAP) / 2.0 / 5.0;
+        for (image, [x, y, width]) in images.iter().zip([[0.0, 0.0, 2.0], [2.0, 1.0, 3.0]]) {
+            let left = if x == 0.0 { GAP } else { 2.0 * GAP + 5.0 * scale };
+            for (name, expected) in [
+                ("x", left + x * scale),
+                ("y", TITLES + y * scale),
+                ("width", width * scale),
+                ("height", scale),
+            ] {
+                assert!((number(image, name) - expected).abs() <= 0.011, "{name} {}", number(image, name));
+            }
+        }
+        let circle = nodes("circle").next().unwrap();
+        assert!((number(&circle, "cx") - GAP - scale).abs() <= 0.01);
+        assert!((number(&circle, "cy") - TITLES - scale / 2.0).abs() <= 0.01);
+        assert!(images[0].attribute("href").unwrap().starts_with("data:image/png;base64,iVBOR"));
+    }
+
+    #[test]
+    fn unknown_is_no_grey() {
+        assert_eq!(colour(Some(0.0)), [255; 3]);
+        assert_eq!(colour(Some(1.0)), [0; 3]);
+        assert_eq!(colour(Some(0.5_f64.next_up())), [127; 3]);
+        assert_eq!((colour(Some(0.5)), colour(None)), (UNKNOWN, UNKNOWN));
+    }
+}

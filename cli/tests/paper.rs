@@ -1,0 +1,87 @@
+//! `meaninfo paper`: the figures, the page and the table, all of it; and what is refused.
+
+mod common;
+
+use common::*;
+use serde_json::Value;
+use std::fs;
+
+const FIGURES: [&str; 6] =
+    ["figure-1.svg", "figure-2.svg", "figure-3.svg", "figure-4.svg", "figure-5.svg", "loop-closure.svg"];
+
+/// Half a minute with optimization, minutes without; a part of it is a unit test of `src/paper/mod.rs`.
+#[test]
+#[cfg_attr(
+    debug_assertions,
+    ignore = "takes minutes: cargo test --release --package mean-information-cli --test paper"
+)]
+fn the_report_is_reproduced() {
+    let folder = Folder::new();
+    let out = folder.text_path("paper");
+    let table = stdout(&["paper", "--out", &out]);
+    let json = stdout(&["paper", "--format", "json", "--out", &folder.text_path("again")]);
+    let json: Value = serde_json::from_str(&json).unwrap();
+
+    // The same bytes on every run.
+    let mut names: Vec<_> =
+        fs::read_dir(&out).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    assert_eq!(names, [&FIGURES[..5], &["index.html"], &FIGURES[5..]].concat());
+    for name in &names {
+        let [first, second] = ["paper", "again"].map(|run| read(folder.path(run).join(name)));
+        assert!(first == second, "{name}");
+    }
+
+    // Every claim was checked and none failed; those that the limit and finer cells correct are corrected.
+    let claims = json["claims"].as_array().unwrap();
+    let verdicts = |verdict: &str| claims.iter().filter(|claim| claim["verdict"] == verdict).count();
+    assert_eq!((verdicts("fail"), verdicts("corrected")), (0, 4));
+    assert!(verdicts("pass") >= 14, "{claims:?}");
+    let measured = |part: &str| {
+        let claim = claims.iter().find(|claim| claim["claim"].as_str().unwrap().contains(part)).unwrap();
+        claim["measured"].as_str().unwrap().to_owned()
+    };
+    // The limits of maths and the values of the grids, by other tools (docs/erratum.md).
+    assert!(measured("polar map tends").contains("0.789507 at 2.5 mm"));
+    assert!(measured("over x and y").contains("0.652511"));
+    assert!(measured("no analytical primitive").contains("0.7893368880256514"));
+    assert!(measured("Misalignment").contains("lower in 100 of 100 random rooms"));
+
+    // A page that needs nothing else, with each figure in it and described.
+    let page = String::from_utf8(read(folder.path("paper").join("index.html"))).unwrap();
+    let body = page.strip_prefix("<!DOCTYPE html>\n").unwrap();
+    let document = roxmltree::Document::parse(body).unwrap();
+    let nodes = |tag: &'static str| document.descendants().filter(move |node| node.tag_name().name() == tag);
+    for node in document.descendants() {
+        for attribute in node.attributes().filter(|a| ["href", "src"].contains(&a.name())) {
+            assert!(attribute.value().starts_with("data:") || attribute.value().starts_with('#'));
+        }
+    }
+    assert_eq!((nodes("script").count(), nodes("link").count(), page.matches("url(").count()), (0, 0, 0));
+    assert!(page.contains("prefers-color-scheme: dark") && page.contains("width=device-width"));
+    let described =
+        nodes("svg").filter(|svg| svg.attribute("aria-label").is_some_and(|label| label.len() > 80));
+    assert_eq!(described.count(), FIGURES.len());
+    assert_eq!(nodes("tr").count(), claims.len() + 1);
+    for (name, figure) in FIGURES.iter().zip(json["figures"].as_array().unwrap()) {
+        assert_eq!(figure["file"], *name);
+        let svg = String::from_utf8(read(folder.path("paper").join(name))).unwrap();
+        roxmltree::Document::parse(&svg).unwrap();
+        assert!(page.contains(&svg), "{name}");
+    }
+    for claim in claims {
+        assert!(table.contains(claim["verdict"].as_str().unwrap()));
+    }
+}
+
+/// Before anything is computed.
+#[test]
+fn a_folder_that_cannot_be_made_is_refused() {
+    let folder = Folder::new();
+    fs::write(folder.path("file"), "").unwrap();
+    for (out, what) in [("no/such/folder", "does not exist"), ("file", "is not a folder")] {
+        let line = refusal(&["paper", "--out", &folder.text_path(out)]);
+        assert!(line.contains(out) && line.contains(what), "{line}");
+    }
+    assert_eq!(folder.names(), ["file"]);
+}

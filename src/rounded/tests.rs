@@ -199,9 +199,9 @@ fn the_comparison_of_the_gaussian_agrees_with_both_steps() {
     for j in 0..160 {
         let s = 0.37 + uniform();
         let t = f64::from(1 + j % 35) - uniform() + 1.0 / 64.0;
-        // z beside the distance: comparable, huge, tiny, or 0.
-        let z = [1.0 + uniform(), 2e9 * uniform(), 1e-25 * uniform(), 0.0][j as usize % 4];
-        let x = if j % 8 < 4 { z + s * t } else { z - s * t };
+        // z beside the distance: comparable, huge, small, tiny, or 0.
+        let z = [1.0 + uniform(), 2e9 * uniform(), 1e-8 * uniform(), 1e-25 * uniform(), 0.0][j as usize % 5];
+        let x = if j % 2 == 0 { z + s * t } else { z - s * t };
         let (m, e) = normalised(s);
         let distance = gaussian::Distance::new(x, z, -52 - e);
         let (d, exponent) = distance.cut();

@@ -213,6 +213,35 @@ fn the_comparison_of_the_gaussian_agrees_with_both_steps() {
     }
 }
 
+/// The ball of a distance against integers: whatever the gap, and where both numbers are huge beside their distance.
+#[test]
+fn the_ball_of_a_distance_holds_it() {
+    const FRACTION: usize = 4;
+    const UNIT: i32 = -64 * FRACTION as i32;
+    let mut random = Random(71);
+    let mut significand = || 1 << 52 | random.next() >> 12;
+    for j in 0..600 {
+        let (gap, same_sign) = (j % 200, j % 3 > 0);
+        // Next to one another at 2^90, where the distance is below 2^40.
+        let near = j % 5 == 0 && same_sign;
+        let exponent = if near { 38 } else { -49 };
+        let large = (significand(), exponent);
+        let small = if near {
+            (large.0 - 1 - u64::from(j as u32), exponent)
+        } else {
+            (significand(), exponent - gap - 1)
+        };
+        let ball = gaussian::Distance { large, small, same_sign }.ball(FRACTION);
+        // In units of 2^UNIT / 2^64, so that nothing is cut.
+        let integer = |(m, e): (u64, i32)| BigInt::from(m) << (e - 6 - UNIT + 64);
+        let (large, small) = (integer(large), integer(small));
+        let exact = if same_sign { large - small } else { large + small };
+        let [lo, hi] = ball.bounds().map(|end| end << 64);
+        assert!(lo <= exact && exact <= hi, "{j}: {exact} is not in [{lo}, {hi}]");
+        assert!(hi - lo <= BigInt::from(8) << 64, "{j}: too wide");
+    }
+}
+
 #[test]
 fn the_square_is_refused_from_1024_on() {
     // t^2 / 2 in units of s = 2^-52 2^52: d = t 2^122, exponent -122.

@@ -40,6 +40,7 @@
 //! | [`interval`] | intervals that contain the exact result of every operation | |
 //! | [`quadrature`] | integrals of functions of one variable, with the error estimated or proved | |
 //! | [`real`] | the two formats of floats | |
+//! | [`operations`] | what a port of this measure implements, by name | |
 //! | [`book`] | the derivation, chapter by chapter, with every claim executed | |
 //!
 //! # What it promises
@@ -72,6 +73,7 @@ pub mod estimate;
 pub mod interval;
 pub mod limit;
 pub mod map;
+pub mod operations;
 pub mod quadrature;
 pub mod real;
 mod rounded;
@@ -111,6 +113,8 @@ pub mod book {
     pub mod quadrature {}
     #[doc = include_str!("../docs/integration.md")]
     pub mod integration {}
+    #[doc = include_str!("../docs/operations.md")]
+    pub mod operations {}
     #[doc = include_str!("../docs/guarantees.md")]
     pub mod guarantees {}
 }

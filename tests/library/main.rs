@@ -14,6 +14,7 @@ mod guarantees;
 mod interval;
 mod limit;
 mod map;
+mod operations;
 mod rigorous;
 mod room;
 mod scan;

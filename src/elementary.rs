@@ -51,3 +51,14 @@ pub fn sqrt<T: Real>(x: T) -> T {
     let root = square.isqrt();
     rounded::round_integer(root, (e - shift) / 2, root * root != square)
 }
+
+/// `e^x - 1`, within 2 ulp (proved: [`quadrature`](crate::book::quadrature)).
+///
+/// Below a quarter `x + x^2/2 (1 + x/3 (1 + x/4 (...)))`; from there on the error of `e^x` is no more than this.
+pub(crate) fn exp_m1<T: Real>(x: T) -> T {
+    if x.abs() >= T::HALF * T::HALF || x.is_nan() {
+        return exp(x) - T::one();
+    }
+    let series = (3..=13_u32).rev().fold(T::one(), |sum, k| T::one() + x / T::from_parts(k.into(), 0) * sum);
+    x + T::HALF * x * x * series
+}

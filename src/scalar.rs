@@ -38,6 +38,12 @@ pub trait Scalar:
     #[must_use]
     fn exp(self) -> Self;
 
+    /// `e^x - 1`; floats keep their digits next to 0, within 2 ulp.
+    #[must_use]
+    fn exp_m1(self) -> Self {
+        -(Self::constant(1.0) - self.exp())
+    }
+
     /// The natural logarithm.
     #[must_use]
     fn ln(self) -> Self;
@@ -49,6 +55,18 @@ pub trait Scalar:
     /// Eq. 1: the Bernoulli entropy in bits, `-(p ln p + (1 - p) ln(1 - p)) / ln 2` for `p` in `[0, 1]`.
     #[must_use]
     fn entropy(self) -> Self;
+
+    /// The Bernoulli entropy in bits at occupancy `e^l`, `l <= 0`; floats keep their digits where it is next to 1, within 2 ulp.
+    ///
+    /// ```
+    /// use mean_information::scalar::Scalar;
+    /// let l = -1e-17_f64; // e^l rounds to 1, of which the entropy is 0
+    /// assert_eq!(l.entropy_from_log_occupancy(), 5.791547265397413e-16);
+    /// ```
+    #[must_use]
+    fn entropy_from_log_occupancy(self) -> Self {
+        self.exp().entropy()
+    }
 
     /// The Bernoulli entropy in bits at log-odds `l = ln(p / (1 - p))`.
     #[must_use]
@@ -73,7 +91,7 @@ pub trait Integrand {
     fn evaluate<S: Scalar>(&self, x: S) -> S;
 }
 
-/// Floats: each operation and function correctly rounded, NaN outside its domain.
+/// Floats: NaN outside the domain; each operation and function correctly rounded, but for the two within 2 ulp.
 impl<T: Real> Scalar for T {
     fn constant(x: f64) -> Self {
         T::nearest(x)
@@ -87,6 +105,10 @@ impl<T: Real> Scalar for T {
         elementary::exp(self)
     }
 
+    fn exp_m1(self) -> Self {
+        elementary::exp_m1(self)
+    }
+
     fn ln(self) -> Self {
         elementary::ln(self)
     }
@@ -97,6 +119,15 @@ impl<T: Real> Scalar for T {
 
     fn entropy(self) -> Self {
         cell::entropy(self)
+    }
+
+    fn entropy_from_log_occupancy(self) -> Self {
+        // Next to 1 the complement keeps what the occupancy has lost, and has the same entropy.
+        if self.abs() < T::HALF * T::HALF {
+            cell::entropy(-elementary::exp_m1(self))
+        } else {
+            cell::entropy(elementary::exp(self))
+        }
     }
 
     fn entropy_from_log_odds(self) -> Self {

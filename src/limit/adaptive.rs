@@ -5,9 +5,10 @@ use super::deficit::{Deficit, check, extent};
 use super::model::{Piece, RadialModel};
 use crate::error::Error;
 use crate::estimate::{Estimate, Status};
+use crate::interval::{Interval, Toward, Wide};
 use crate::quadrature::adaptive::{GaussKronrod, graded};
 use crate::real::Real;
-use crate::scalar::Integrand;
+use crate::scalar::{Integrand, Scalar};
 use num_traits::float::FloatCore;
 use num_traits::{One, Zero};
 
@@ -15,13 +16,13 @@ use num_traits::{One, Zero};
 ///
 /// The tolerances of `quadrature` are those of the deficit `1 - MI`, its evaluation limit that of all integrals together. What is
 /// integrated is the entropy in the local coordinate `t` of each piece, with panels that shrink towards its start; so a peak of any
-/// relative width is seen.
+/// relative width is seen. A piece whose range, an interval, shows that it matters less than the tolerance is left at that.
 ///
 /// **Error**: [`Estimate::error`], an estimate: the sum of those of the pieces ([`GaussKronrod`]), and the rounding of the last steps.
 /// Measured: never below the true error in 10 000 random rooms, both weights and formats.
 ///
-/// In `f32` the entropy of an occupancy next to 1 is mostly rounding; where that hides how the integrand runs, the status says so
-/// ([`Status::RoundOff`], [`Status::Unresolved`]), and the claim may be infinite. The closed form has no such limits.
+/// A room takes at most 511 evaluations at a relative tolerance of `1e-12` in `f64`, by any rule and for any `z / σ` from `1e-6` to
+/// `1e9` (measured: [`quadrature`](crate::book::quadrature)).
 ///
 /// Special case: 0, exactly, for a model that observes nothing.
 ///
@@ -44,8 +45,9 @@ pub fn adaptive<M: RadialModel>(
 ) -> Result<Estimate<M::Float>, Error> {
     check(model)?;
     let pieces = model.pieces::<M::Float>();
-    let whole = (0..pieces.len())
-        .map(|piece| extent::<M, M::Float>(model, weight, piece).abs())
+    let whole = pieces
+        .iter()
+        .map(|piece| extent(model, weight, piece).abs())
         .fold(M::Float::zero(), |sum, extent| sum + extent);
     let mut sum = Estimate {
         value: M::Float::zero(),
@@ -65,15 +67,21 @@ pub fn adaptive<M: RadialModel>(
         return Err(Error::out_of_range("evaluation limit", quadrature.limit as f64, allowed));
     }
     for (index, piece) in pieces.iter().enumerate() {
-        let deficit = Deficit { model, weight, piece: index };
-        let sign = piece.length.signum();
-        let points = graded(piece.length.abs(), M::Float::zero(), ratio(), piece.panels)?;
-        // What is small beside the pieces before it need not be known to the same digits.
-        let absolute = (quadrature.absolute * whole).max(quadrature.relative * sum.value);
-        let part = quadrature
-            .absolute(absolute)
-            .limit(quadrature.limit - sum.evaluations - least(&pieces[index + 1..]))
-            .integrate_between(|x| deficit.evaluate(piece.start + sign * x), &points)?;
+        let deficit = Deficit { model, weight, piece: index, mirrored: piece.mirrored };
+        let tolerance = (quadrature.absolute * whole).max(quadrature.relative * sum.value);
+        // Half of what the pieces before have left of it.
+        let allowed = (tolerance - sum.error).max(tolerance * ratio()) * M::Float::HALF;
+        let most = most(&deficit, piece);
+        let part = if most <= allowed {
+            Estimate { value: M::Float::zero(), error: most, status: Status::Converged, evaluations: 1 }
+        } else {
+            let sign = piece.length.signum();
+            let points = graded(piece.length.abs(), M::Float::zero(), ratio(), piece.panels)?;
+            quadrature
+                .absolute(allowed)
+                .limit(quadrature.limit - sum.evaluations - least(&pieces[index + 1..]))
+                .integrate_between(|x| deficit.evaluate(piece.start + sign * x), &points)?
+        };
         sum.value = sum.value + part.value;
         sum.error = sum.error + part.error;
         sum.evaluations += part.evaluations;
@@ -87,7 +95,15 @@ pub fn adaptive<M: RadialModel>(
     Ok(Estimate { value, error: sum.error / whole + rounding, ..sum })
 }
 
-/// Each panel is a quarter of the one before.
+/// What the integral over a piece is at most, by the range of the integrand: enough to know of a tail.
+fn most<T: Real>(deficit: &impl Integrand, piece: &Piece<T>) -> T {
+    let [start, end] =
+        [piece.start, piece.start + piece.length].map(|x| Interval::<Wide>::constant(x.widen()));
+    let range = deficit.evaluate(start.hull(end));
+    if range.is_empty() { T::infinity() } else { (range * (end - start)).magnitude().to_real(Toward::Up) }
+}
+
+/// Each panel is an eighth of the one before.
 fn ratio<T: Real>() -> T {
-    T::HALF * T::HALF
+    T::HALF * T::HALF * T::HALF
 }

@@ -8,46 +8,49 @@
 //! units of `z + σ`, so that `w` neither overflows nor vanishes.
 
 use super::Weight;
-use super::model::RadialModel;
+use super::model::{Piece, RadialModel};
 use crate::error::Error;
 use crate::real::Real;
 use crate::scalar::{Integrand, Scalar};
 use num_traits::Zero;
 use num_traits::float::FloatCore;
 
-/// `H(p) w` along one piece of a model.
+/// `H(p) w` along one piece of a model; of a mirrored one, what both of its stretches have at `t` and `-t`.
 pub(super) struct Deficit<'a, M> {
     pub(super) model: &'a M,
     pub(super) weight: Weight,
     pub(super) piece: usize,
+    pub(super) mirrored: bool,
 }
 
 impl<M: RadialModel> Integrand for Deficit<'_, M> {
     fn evaluate<S: Scalar>(&self, t: S) -> S {
         let entropy = self.model.entropy(self.piece, t.clone());
         match self.weight {
-            Weight::Radial => entropy,
-            Weight::Area => entropy * distance(self.model, t),
+            Weight::Radial if !self.mirrored => entropy,
+            _ => entropy * density(self.model, self.weight, self.mirrored, t),
         }
     }
 }
 
-/// `ρ / (z + σ)` at `t`.
-fn distance<M: RadialModel, S: Scalar>(model: &M, t: S) -> S {
-    let ratio = S::constant(model.origin().widen()) / S::constant(model.scale().widen());
-    (ratio.clone() + t) / (ratio + S::constant(1.0))
+/// `w` at `t`, in units of `z + σ` by area; mirrored `w(t) + w(-t)`, which is `2 w(0)`, as `w` is linear.
+fn density<M: RadialModel, S: Scalar>(model: &M, weight: Weight, mirrored: bool, t: S) -> S {
+    let distance = |t: S| {
+        let ratio = S::constant(model.origin().widen()) / S::constant(model.scale().widen());
+        (ratio.clone() + t) / (ratio + S::constant(1.0))
+    };
+    match (weight, mirrored) {
+        (Weight::Radial, false) => S::constant(1.0),
+        (Weight::Radial, true) => S::constant(2.0),
+        (Weight::Area, false) => distance(t),
+        (Weight::Area, true) => S::constant(2.0) * distance(S::constant(0.0)),
+    }
 }
 
 /// `∫ w dt` over a piece, without its sign: the length, times `w` in the middle.
-pub(super) fn extent<M: RadialModel, S: Scalar>(model: &M, weight: Weight, piece: usize) -> S {
-    let Some(stretch) = model.pieces::<S>().into_iter().nth(piece) else { return S::constant(0.0) };
-    match weight {
-        Weight::Radial => stretch.length,
-        Weight::Area => {
-            let middle = stretch.start + S::constant(0.5) * stretch.length.clone();
-            stretch.length * distance(model, middle)
-        }
-    }
+pub(super) fn extent<M: RadialModel, S: Scalar>(model: &M, weight: Weight, piece: &Piece<S>) -> S {
+    let middle = piece.start.clone() + S::constant(0.5) * piece.length.clone();
+    piece.length.clone() * density(model, weight, piece.mirrored, middle)
 }
 
 /// An error where `z / σ` is beyond what the type can square.

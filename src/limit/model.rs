@@ -17,15 +17,24 @@ pub struct Piece<S> {
     pub start: S,
     /// How far it reaches, with its sign.
     pub length: S,
-    /// How many panels the adaptive integral begins with, each a quarter of the one before: enough for the smallest to be no wider
+    /// How many panels the adaptive integral begins with, each an eighth of the one before: enough for the smallest to be no wider
     /// than what is to be seen at the start. At least 1.
     pub panels: usize,
+    /// Whether it stands for two stretches: itself and its mirror image about `t = 0`, with the same entropy at `-t` as at `t`.
+    /// They are integrated at once, at half the work.
+    pub mirrored: bool,
 }
 
 impl<S: Scalar> Piece<S> {
     /// The piece of the given start, length and number of panels.
     pub fn new(start: S, length: S, panels: usize) -> Self {
-        Self { start, length, panels }
+        Self { start, length, panels, mirrored: false }
+    }
+
+    /// The piece together with its mirror image about `t = 0`.
+    #[must_use]
+    pub fn mirrored(self) -> Self {
+        Self { mirrored: true, ..self }
     }
 }
 
@@ -65,13 +74,43 @@ pub(super) fn exponent<S: Scalar>(t: S) -> S {
     S::constant(0.5) * t.clone() * t
 }
 
-/// Beyond this many `σ` the Gaussian is below `2^-1154`: nothing there but a tail.
-pub(super) const TAIL: f64 = 40.0;
+/// Beyond this many `σ` the entropy is below `2^-97`: nothing there but a tail.
+const TAIL: f64 = 12.0;
+
+/// Which side of `z` is the longer one, of the side of the sensor (`z / σ`) and the far one (`√(ln 4)`).
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Longer {
+    Near,
+    Far,
+    /// They differ by roundings at most, so that their difference may have either sign.
+    Neither,
+}
+
+impl Longer {
+    pub(super) fn of<T: Real>(sensor: &GaussianSensor<T>) -> Self {
+        // Root, quotient and quotient of both err by less than 2 epsilon together.
+        let excess = ratio::<T, f64>(sensor) / half_width::<f64>() - 1.0;
+        match excess {
+            _ if excess > 4.0 * f64::EPSILON => Self::Near,
+            _ if excess < -4.0 * f64::EPSILON => Self::Far,
+            _ => Self::Neither,
+        }
+    }
+}
+
+/// From `-√(ln 4)` down to the sensor, where that is the longer side: its tail apart.
+pub(super) fn beyond<T: Real, S: Scalar>(sensor: &GaussianSensor<T>, panels: usize) -> Vec<Piece<S>> {
+    let piece = |end| Piece::new(-half_width::<S>(), half_width::<S>() - end, panels);
+    if ratio::<T, f64>(sensor) <= TAIL {
+        return vec![piece(ratio(sensor))];
+    }
+    vec![piece(S::constant(TAIL)), Piece::new(S::constant(-TAIL), S::constant(TAIL) - ratio(sensor), 1)]
+}
 
 /// The panels about `z`, where the entropy is `t^2 ln |t|`.
-const PANELS: usize = 5;
+const PANELS: usize = 4;
 
-/// The near side from `z` down to the sensor, its tail apart, and the far side up to the edge.
+/// What both sides of `z` have in common, and what the longer one has beyond.
 impl<T: Real> RadialModel for GaussianSensor<T> {
     type Float = T;
 
@@ -84,19 +123,24 @@ impl<T: Real> RadialModel for GaussianSensor<T> {
     }
 
     fn pieces<S: Scalar>(&self) -> Vec<Piece<S>> {
-        let far = Piece::new(S::constant(0.0), half_width(), PANELS);
-        if ratio::<T, f64>(self) > TAIL {
-            let near = Piece::new(S::constant(0.0), S::constant(-TAIL), PANELS + 1);
-            vec![far, near, Piece::new(S::constant(-TAIL), S::constant(TAIL) - ratio(self), 1)]
-        } else {
-            // What is far narrower than the far side counts for little beside it.
-            let panels = if ratio::<T, f64>(self) < 0.125 { 1 } else { PANELS + 1 };
-            vec![far, Piece::new(S::constant(0.0), -ratio::<T, S>(self), panels)]
+        let from_obstacle = |length| Piece::new(S::constant(0.0), length, PANELS);
+        match Longer::of(self) {
+            Longer::Near => {
+                let mut pieces = beyond(self, 2);
+                pieces.insert(0, from_obstacle(half_width()).mirrored());
+                pieces
+            }
+            Longer::Far => {
+                let near = ratio::<T, S>(self);
+                let rest = Piece::new(near.clone(), half_width::<S>() - near.clone(), 4);
+                vec![rest, from_obstacle(near).mirrored()]
+            }
+            Longer::Neither => vec![from_obstacle(half_width()), from_obstacle(-ratio::<T, S>(self))],
         }
     }
 
     fn entropy<S: Scalar>(&self, _: usize, t: S) -> S {
-        (-exponent(t)).exp().entropy()
+        (-exponent(t)).entropy_from_log_occupancy()
     }
 }
 

@@ -1,9 +1,8 @@
 //! Several consistent scans: readings of the same range, whose log-odds add.
 
-use alloc::vec;
 use alloc::vec::Vec;
 
-use super::model::{Piece, RadialModel, TAIL, exponent, half_width, ratio};
+use super::model::{Longer, Piece, RadialModel, beyond, exponent, half_width, ratio};
 use crate::error::Error;
 use crate::real::Real;
 use crate::scalar::Scalar;
@@ -66,30 +65,21 @@ impl<T: Real> RadialModel for RepeatedScans<T> {
 
     fn pieces<S: Scalar>(&self) -> Vec<Piece<S>> {
         // The bumps are as narrow as 1/n.
-        let panels = 4 + self.scans.ilog2() as usize / 2;
+        let panels = 4 + self.scans.ilog2() as usize / 3;
         let half = || S::constant(0.5) * half_width();
         let piece = |start, length| Piece::new(start, length, panels);
-        let mut pieces = vec![piece(S::constant(0.0), half()), piece(half_width(), -half())];
-        let distance: f64 = ratio(&self.sensor);
-        // With room for both roundings: a bump that ends before the sensor would have a length of the wrong sign.
-        if distance <= half_width::<f64>() * (1.0 + 4.0 * f64::EPSILON) {
-            pieces.push(piece(S::constant(0.0), -ratio::<T, S>(&self.sensor)));
-            return pieces;
+        let sides = [piece(S::constant(0.0), half()), piece(half_width(), -half())];
+        if Longer::of(&self.sensor) != Longer::Near {
+            // The near side has no bump.
+            let near = piece(S::constant(0.0), -ratio::<T, S>(&self.sensor));
+            return sides.into_iter().chain([near]).collect();
         }
-        pieces.push(piece(S::constant(0.0), -half()));
-        pieces.push(piece(-half_width::<S>(), half()));
-        if distance <= TAIL {
-            pieces.push(piece(-half_width::<S>(), half_width::<S>() - ratio(&self.sensor)));
-        } else {
-            pieces.push(piece(-half_width::<S>(), half_width::<S>() - S::constant(TAIL)));
-            pieces.push(piece(S::constant(-TAIL), S::constant(TAIL) - ratio(&self.sensor)));
-        }
-        pieces
+        sides.map(Piece::mirrored).into_iter().chain(beyond(&self.sensor, panels)).collect()
     }
 
     fn entropy<S: Scalar>(&self, _: usize, t: S) -> S {
         let exponent = exponent(t);
-        let rest = S::constant(1.0) - (-exponent.clone()).exp();
+        let rest = -(-exponent.clone()).exp_m1();
         (S::constant(f64::from(self.scans)) * (-exponent - rest.ln())).entropy_from_log_odds()
     }
 }

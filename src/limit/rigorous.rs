@@ -46,8 +46,8 @@ pub fn rigorous<M: RadialModel>(
         return Ok(Enclosure { lower: zero, upper: zero, status: Status::Converged, evaluations: 0 });
     }
     let (mut deficit, mut whole) = (Interval::constant(0.0), Interval::constant(0.0));
-    for (index, _) in pieces.iter().enumerate() {
-        whole = whole + magnitude(extent(model, weight, index));
+    for piece in &pieces {
+        whole = whole + magnitude(extent(model, weight, piece));
     }
     let (mut status, mut evaluations) = (Status::Converged, 0);
     for (index, piece) in pieces.into_iter().enumerate() {
@@ -56,7 +56,7 @@ pub fn rigorous<M: RadialModel>(
         let absolute = (quadrature.absolute.max(finest()) * to_float(whole))
             .max(quadrature.relative * to_float(deficit));
         let part = Rigorous { absolute, ..*quadrature }.between(
-            &Deficit { model, weight, piece: index },
+            &Deficit { model, weight, piece: index, mirrored: piece.mirrored },
             piece.start,
             to,
         );
@@ -98,3 +98,6 @@ fn finest<T: Real>() -> T {
 fn to_float<T: Real>(x: Interval<Wide>) -> T {
     x.lower().to_real(Toward::Down)
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,7 +1,9 @@
 //! The elementary functions against another correctly rounded implementation, their inverses, and their special cases.
 
 use mean_information::Real;
+use mean_information::cell::entropy;
 use mean_information::elementary::{exp, ln, sqrt};
+use mean_information::scalar::Scalar;
 use proptest::prelude::*;
 
 fn positive() -> impl Strategy<Value = f64> {
@@ -11,6 +13,13 @@ fn positive() -> impl Strategy<Value = f64> {
         (1_i32..=52, any::<bool>())
             .prop_map(|(k, up)| 1.0 + f64::from_parts(1, -k) * if up { 1.0 } else { -0.5 }),
     ]
+}
+
+/// Whether `x` is within 2 ulp of what rounds to `rounded`, half an ulp apart.
+fn within_two_ulp<T: Real>(x: T, rounded: T) -> bool {
+    let (m, e) = rounded.abs().parts();
+    let ulp = T::from_parts(m + 1, e) - T::from_parts(m, e);
+    x == rounded || (x - rounded).abs() <= ulp + ulp + ulp * T::HALF
 }
 
 proptest! {
@@ -25,6 +34,22 @@ proptest! {
         prop_assert_eq!(ln(x), core_math::logf(x));
         prop_assert_eq!(exp(y), core_math::expf(y));
         prop_assert_eq!(sqrt(f64::from(x)) as f32, sqrt(x));
+    }
+
+    /// The complement of the occupancy, and the entropy from its logarithm, within 2 ulp also next to certainty.
+    #[test]
+    fn next_to_certainty(x in -1.0_f64..1.0, k in 0_i32..1060, l in -800.0_f64..-0.5) {
+        let scaled = x * f64::from_parts(1, -k / 2) * f64::from_parts(1, -(k + 1) / 2);
+        for x in [x, x / 4.0, scaled, 700.0 * x] {
+            prop_assert!(within_two_ulp(Scalar::exp_m1(x), core_math::expm1(x)), "{:e}", x);
+            prop_assert!(within_two_ulp(Scalar::exp_m1(x as f32), core_math::expm1f(x as f32)), "{:e}", x);
+            let (l, single) = (-x.abs(), -(x as f32).abs());
+            let expected = if l > -0.5 { entropy(-core_math::expm1(l)) } else { entropy(exp(l)) };
+            prop_assert!(within_two_ulp(l.entropy_from_log_occupancy(), expected), "{:e}", l);
+            let expected = entropy(-core_math::expm1(f64::from(single))) as f32;
+            prop_assert!(single < -0.5 || within_two_ulp(single.entropy_from_log_occupancy(), expected), "{:e}", single);
+        }
+        prop_assert!(within_two_ulp(l.entropy_from_log_occupancy(), entropy(exp(l))), "{:e}", l);
     }
 
     /// Integers decide: the nearest float to the root of `x` has neighbours' midpoints on either side.

@@ -3,6 +3,7 @@
 use mean_information::build::{CartesianRoom, PolarRoom};
 use mean_information::interval::Interval;
 use mean_information::quadrature::rigorous::Rigorous;
+use mean_information::scalar::Scalar;
 use mean_information::sensor::{GaussianSensor, InverseSensorModel};
 use mean_information::{ExactSum, Tally, build, cell, elementary, limit, map};
 use std::path::Path;
@@ -36,9 +37,11 @@ pub(crate) fn guarantees() -> Vec<Guarantee> {
         elementary::exp::<f64> => "elementary::exp", 0.5, Proved;
         elementary::ln::<f64> => "elementary::ln", 0.5, Proved;
         elementary::sqrt::<f64> => "elementary::sqrt", 0.5, Proved;
+        <f64 as Scalar>::exp_m1 => "Scalar::exp_m1", 2.0, Proved;
         cell::entropy::<f64> => "cell::entropy", 0.5, Proved;
         cell::information::<f64> => "cell::information", 0.5, Proved;
         cell::entropy_from_log_odds::<f64> => "cell::entropy_from_log_odds", 0.5, Proved;
+        <f64 as Scalar>::entropy_from_log_occupancy => "Scalar::entropy_from_log_occupancy", 2.0, Proved;
         cell::information_from_log_odds::<f64> => "cell::information_from_log_odds", 0.5, Proved;
         cell::occupancy_from_log_odds::<f64> => "cell::occupancy_from_log_odds", 0.5, Proved;
         cell::log_odds_from_occupancy::<f64> => "cell::log_odds_from_occupancy", 0.5, Proved;

@@ -57,6 +57,7 @@ impl Lattice {
     }
 
     /// The distance in metres of a point from the centre of a cell: the nearest float, ties to even.
+    #[inline]
     pub(super) fn distance_to_centre(self, from: Point, cell: [i64; 2]) -> f64 {
         let [x, y] = [0, 1].map(|k| {
             let centre = (cell[k] << FRACTION) + (1 << (FRACTION - 1));

@@ -17,6 +17,7 @@ pub(super) struct Area {
 
 impl Area {
     /// One cell.
+    #[inline]
     pub(super) fn of_cell(cell: [i64; 2]) -> Self {
         Self { low: cell, high: cell.map(|k| k + 1) }
     }
@@ -51,6 +52,7 @@ impl Area {
     }
 
     /// Columns and rows.
+    #[inline]
     pub(super) fn size(self) -> [usize; 2] {
         [0, 1].map(|k| (self.high[k] - self.low[k]) as usize)
     }

@@ -135,18 +135,20 @@ impl<T: Real> ScanMap<T> {
         // Before the work, which is at most what a map within the limit takes.
         whole.within(self.max_cells)?;
 
-        let mut readings = Raster::new(area, T::HALF, self.max_cells)?;
+        let mut readings = Raster::new(area, Reading::none(), self.max_cells)?;
         for (index, segment) in segments.iter().enumerate() {
             for cell in Traversal::new(start, segment.end) {
-                let rho = T::nearest(self.lattice.distance_to_centre(start, cell));
+                let reading = readings.cell_mut(cell);
+                let rho = *reading
+                    .rho
+                    .get_or_insert_with(|| T::nearest(self.lattice.distance_to_centre(start, cell)));
                 let p = segment.model.occupancy(rho);
                 if !cell::in_unit_interval(p) {
                     let what = "occupancy by the model of beam";
                     return Err(Error::Item { what, index, value: p.widen(), allowed: "0 to 1" });
                 }
                 if segment.is_return || p < T::HALF {
-                    let reading = readings.cell_mut(cell);
-                    *reading = stronger(*reading, p);
+                    reading.p = stronger(reading.p, p);
                 }
             }
         }
@@ -187,7 +189,7 @@ impl<T: Real> ScanMap<T> {
     }
 
     /// Adds the log-odds of the readings of one scan.
-    fn add(&mut self, whole: Area, readings: &Raster<T>) -> Result<(), Error> {
+    fn add(&mut self, whole: Area, readings: &Raster<Reading<T>>) -> Result<(), Error> {
         let area = readings.area();
         match &mut self.seen {
             Some((seen, sums)) => {
@@ -198,7 +200,7 @@ impl<T: Real> ScanMap<T> {
         }
         if let Some((_, sums)) = &mut self.seen {
             for (row, readings) in (area.low()[1]..).zip(readings.rows(area)) {
-                for (sum, &p) in sums.row_mut(area, row).iter_mut().zip(readings) {
+                for (sum, &Reading { p, .. }) in sums.row_mut(area, row).iter_mut().zip(readings) {
                     // 2^41 scans would not fill the integer.
                     *sum += fixed_log_odds(p).clamp(-self.limit, self.limit);
                 }
@@ -244,6 +246,20 @@ struct Segment<M> {
     end: Point,
     model: M,
     is_return: bool,
+}
+
+/// What one scan says of a cell.
+#[derive(Clone, Copy)]
+struct Reading<T> {
+    /// The distance of its centre from the sensor, once a beam crosses it: beams are many where cells are near.
+    rho: Option<T>,
+    p: T,
+}
+
+impl<T: Real> Reading<T> {
+    fn none() -> Self {
+        Self { rho: None, p: T::HALF }
+    }
 }
 
 /// Of two readings of a cell in one scan: an occupied one before a free one, the surer of two alike. In any order the

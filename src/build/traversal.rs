@@ -49,6 +49,7 @@ impl Traversal {
     }
 
     /// Crosses the next line of an axis.
+    #[inline]
     fn cross(&mut self, axis: usize) {
         self.cell[axis] += if self.forward[axis] { 1 } else { -1 };
         self.left[axis] -= 1;
@@ -59,6 +60,7 @@ impl Traversal {
 impl Iterator for Traversal {
     type Item = [i64; 2];
 
+    #[inline]
     fn next(&mut self) -> Option<[i64; 2]> {
         if self.done {
             return None;

@@ -45,6 +45,14 @@ impl GridKind {
             Self::Cartesian => Weight::Area,
         }
     }
+
+    /// How far a grid of cells of this size can be from the limit.
+    fn bound(self, sensor: &GaussianSensor<f64>, resolution: f64) -> Result<f64, Error> {
+        match self {
+            Self::Polar => bounds::polar(sensor, resolution),
+            Self::Cartesian => bounds::cartesian(sensor, resolution),
+        }
+    }
 }
 
 /// Grids of one room.
@@ -67,7 +75,13 @@ pub struct Series {
     pub limit: f64,
     /// By cell size, as they were given.
     pub rows: Vec<Row>,
+    /// The proved band: the decimal logarithm of a cell size, and how far a grid of it can be from the limit; from the smallest
+    /// size of the rows to the largest.
+    pub band: Vec<(f64, f64)>,
 }
+
+/// The steps of a band.
+const STEPS: u32 = 100;
 
 /// One grid.
 #[derive(Debug)]
@@ -104,24 +118,46 @@ impl Series {
         let mut rows = Vec::new();
         for &resolution in resolutions {
             progress.begin(&format!("{} grid of {} m", kind.name(), short(resolution)));
-            let (tally, bound, bound_of_count) = match kind {
+            let (tally, bound_of_count) = match kind {
                 GridKind::Polar => {
                     let tally = PolarRoom::new(sensor, resolution)?.tally()?;
                     let of_count = bounds::polar_with_count(&sensor, resolution, tally.observed())?;
-                    (tally, bounds::polar(&sensor, resolution)?, of_count)
+                    (tally, of_count)
                 }
                 GridKind::Cartesian => {
                     let tally = CartesianRoom::new(sensor, resolution, [0.5, 0.5])?.tally()?;
                     let of_count = bounds::cartesian_with_count(&sensor, resolution, tally.observed())?;
-                    (tally, bounds::cartesian(&sensor, resolution)?, of_count)
+                    (tally, of_count)
                 }
             };
+            let bound = kind.bound(&sensor, resolution)?;
             let mean_information = tally.mean_information();
             let (observed, error) = (tally.observed(), mean_information - limit);
             rows.push(Row { resolution, mean_information, observed, error, bound, bound_of_count });
             progress.done();
         }
-        Ok(Self { kind, limit, rows })
+        let band = Self::band(kind, &sensor, resolutions)?;
+        Ok(Self { kind, limit, rows, band })
+    }
+
+    /// The band from the smallest of these sizes to the largest.
+    fn band(
+        kind: GridKind,
+        sensor: &GaussianSensor<f64>,
+        resolutions: &[f64],
+    ) -> Result<Vec<(f64, f64)>, Error> {
+        let smallest = resolutions.iter().copied().fold(f64::INFINITY, f64::min);
+        let largest = resolutions.iter().copied().fold(0.0, f64::max);
+        let [first, last] = [smallest, largest].map(libm::log10);
+        let step = (last - first) / f64::from(STEPS);
+        (0..=STEPS)
+            .map(|k| {
+                let logarithm = first + f64::from(k) * step;
+                // Roundings of the logarithm must not lead beyond the sizes that the bounds allow.
+                let size = libm::exp10(logarithm).clamp(smallest, largest);
+                Ok((logarithm, kind.bound(sensor, size)?))
+            })
+            .collect()
     }
 }
 

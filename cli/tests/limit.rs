@@ -128,6 +128,7 @@ fn what_cannot_be_is_refused() {
         (&["--range", "2", "--sigma", "0.2", "--scans", "0"], "0"),
         (&["--range", "2", "--sigma", "0.2", "--scans", "3"], "--method adaptive"),
         (&["--range", "2", "--sigma", "0.2", "--tolerance", "1e-9"], "--tolerance"),
+        (&["--range", "2", "--sigma", "0.2", "--evaluations", "100000"], "--evaluations"),
         (&["--range", "2", "--sigma", "0.2", "--method", "adaptive", "--tolerance", "1e-30"], "tolerance"),
         (&["--range", "2", "--sigma", "0.2", "--method", "rigorous", "--tolerance", "1e-30"], "tolerance"),
         (

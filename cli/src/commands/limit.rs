@@ -38,9 +38,9 @@ pub struct Arguments {
     /// The wanted error relative to the deficit, 1 less the limit, for the methods adaptive and rigorous.
     #[arg(long, value_name = "T")]
     tolerance: Option<String>,
-    /// About how often these methods may evaluate the integrand; rigorous: along each piece of the beam.
-    #[arg(long, value_name = "N", default_value = "100000")]
-    evaluations: u64,
+    /// About how often these methods may evaluate the integrand, 100000 times if absent; rigorous: along each piece of the beam.
+    #[arg(long, value_name = "N")]
+    evaluations: Option<u64>,
     #[command(flatten)]
     writing: Writing,
 }
@@ -93,22 +93,12 @@ impl Arguments {
         let (range, sigma) = (given("range", &self.range)?, given("sigma", &self.sigma)?);
         let tolerance = self.tolerance.as_ref().map(|text| given("tolerance", text)).transpose()?;
         let sensor = GaussianSensor::new(range, sigma).map_err(refused)?;
-        let one = self.scans == NonZeroU32::MIN;
         let result = match self.method {
-            Method::ClosedForm if one && tolerance.is_none() => {
+            Method::ClosedForm => {
+                self.check_for_closed_form()?;
                 Computed::closed_form(limit::closed_form(&sensor, self.weight.into()))
             }
-            Method::ClosedForm if one => {
-                return Err(Failure::Usage(
-                    "--tolerance: the closed form has an error of its own".to_owned(),
-                ));
-            }
-            Method::ClosedForm => {
-                let methods =
-                    "--scans: there is no closed form for several scans; add --method adaptive or rigorous";
-                return Err(Failure::Usage(methods.to_owned()));
-            }
-            _ if one => self.integral(&sensor, tolerance).map_err(refused)?,
+            _ if self.scans == NonZeroU32::MIN => self.integral(&sensor, tolerance).map_err(refused)?,
             _ => {
                 let scans = RepeatedScans::new(sensor, self.scans.get()).map_err(refused)?;
                 self.integral(&scans, tolerance).map_err(refused)?
@@ -128,19 +118,34 @@ impl Arguments {
         })
     }
 
+    /// Refuses what only integrals know.
+    fn check_for_closed_form(&self) -> Result<(), Failure> {
+        let refused = if self.scans != NonZeroU32::MIN {
+            "--scans: there is no closed form for several scans; add --method adaptive or rigorous"
+        } else if self.tolerance.is_some() {
+            "--tolerance: the closed form has an error of its own"
+        } else if self.evaluations.is_some() {
+            "--evaluations: the closed form evaluates no integrand"
+        } else {
+            return Ok(());
+        };
+        Err(Failure::Usage(refused.to_owned()))
+    }
+
     fn integral<M: RadialModel>(
         &self,
         model: &M,
         tolerance: Option<M::Float>,
     ) -> Result<Computed<M::Float>, Error> {
         let weight = self.weight.into();
+        let evaluations = self.evaluations.unwrap_or(100_000);
         if self.method == Method::Rigorous {
             let rules = tolerance.map_or(Ok(Rigorous::default()), |relative| {
                 Rigorous::new(M::Float::nearest(0.0), relative)
             })?;
-            return limit::rigorous(model, weight, &rules.with_limit(self.evaluations)?).map(Computed::from);
+            return limit::rigorous(model, weight, &rules.with_limit(evaluations)?).map(Computed::from);
         }
-        let rules = GaussKronrod::new().limit(self.evaluations);
+        let rules = GaussKronrod::new().limit(evaluations);
         let rules = tolerance.map_or(rules, |relative| rules.relative(relative));
         limit::adaptive(model, weight, &rules).map(Computed::from)
     }

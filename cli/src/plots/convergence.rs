@@ -104,13 +104,8 @@ impl Drawing for ConvergencePlot<'_> {
             .y_label_formatter(&|bits| short(*bits))
             .draw()?;
         for series in &self.convergence.series {
-            let mut band = Vec::new();
-            for row in &series.rows {
-                band.push((libm::log10(row.resolution), row.bound));
-            }
-            band.sort_by(|a, b| a.0.total_cmp(&b.0));
-            let above = band.iter().map(|&(x, bound)| (x, inside(series.limit + bound)));
-            let below = band.iter().rev().map(|&(x, bound)| (x, inside(series.limit - bound)));
+            let above = series.band.iter().map(|&(x, bound)| (x, inside(series.limit + bound)));
+            let below = series.band.iter().rev().map(|&(x, bound)| (x, inside(series.limit - bound)));
             chart.draw_series([Polygon::new(
                 above.chain(below).collect::<Vec<_>>(),
                 colour(series.kind).mix(0.12),

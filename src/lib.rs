@@ -105,6 +105,8 @@ pub mod book {
     pub mod fusion {}
     #[doc = include_str!("../docs/expected.md")]
     pub mod expected {}
+    #[doc = include_str!("../docs/figures.md")]
+    pub mod figures {}
     #[doc = include_str!("../docs/rounding.md")]
     pub mod rounding {}
     #[doc = include_str!("../docs/limit.md")]

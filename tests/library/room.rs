@@ -3,6 +3,7 @@
 use super::common::power;
 use mean_information::build::{CartesianRoom, PolarRoom, Sampling};
 use mean_information::cell::Cell;
+use mean_information::limit::{Weight, bounds, closed_form};
 use mean_information::map::encoding::Probability;
 use mean_information::map::{Geometry, Grid};
 use mean_information::sensor::{GaussianSensor, InverseSensorModel, SteppedSensor};
@@ -343,5 +344,32 @@ fn the_known_values() {
         let grid = cartesian(2.0_f64, 0.2, h, [0.5; 2]).tally().unwrap().mean_information();
         let beam = polar(2.0_f64, 0.2, h).tally().unwrap().mean_information();
         assert_eq!([grid, beam].map(|x| (x * 1e6).round() / 1e6), [cartesian_value, polar_value]);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    /// One place, a square four times as wide as the reach `L`, in ever smaller cells. Of its `(4 L / h)^2` cells at most
+    /// `(2 L / h + 1)^2` are observed, and each of the others adds a bit: for `h <= L / 2` the entropy is at least `9.75 (L /
+    /// h)^2`, without bound. The mean information stays within a bound of its limit that shrinks with `h`.
+    #[test]
+    fn entropy_grows_without_bound_while_mean_information_settles((z, sigma, coarse) in room(3.0..9.0), offsets in [offset(), offset()]) {
+        let sensor = GaussianSensor::new(z, sigma)?;
+        let limit = closed_form(&sensor, Weight::Area);
+        let mut before = (0.0, f64::INFINITY);
+        for k in 0..5 {
+            let h = coarse * power(-k);
+            // A little short of the reach, so that the bound on the entropy holds with roundings.
+            let cells = (z + 1.177 * sigma) / h;
+            let mut tally = CartesianRoom::new(sensor, h, offsets)?.tally()?;
+            let all = (16.0 * cells * cells) as u64;
+            tally.add_many(Cell::unknown(), all - tally.cells());
+            let bound = bounds::cartesian(&sensor, h)?;
+            prop_assert!(tally.entropy() >= 9.75 * cells * cells && tally.entropy() > 3.0 * before.0);
+            // From where it says more than that they differ by at most 1.
+            prop_assert!((tally.mean_information() - limit).abs() <= bound && (bound < 0.75 * before.1 || before.1 >= 1.0));
+            before = (tally.entropy(), bound);
+        }
     }
 }

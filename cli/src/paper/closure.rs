@@ -12,9 +12,12 @@ use mean_information::build::{Direction, Hypotheses, Pose};
 use mean_information::elementary::sqrt;
 use mean_information::map::Grid;
 use mean_information::map::encoding::Probability;
+use std::panic::resume_unwind;
+use std::thread;
 
-/// The filters that are run; the first is drawn.
-const SEEDS: [u64; 4] = [1, 2, 3, 4];
+/// The seeds of the filters that are run, one in three so that exceptions show at a third of the cost; the first is
+/// drawn.
+const SEEDS: [u64; 13] = [1, 4, 7, 10, 13, 16, 19, 22, 25, 28, 31, 34, 37];
 const PARTICLES: usize = 20;
 const RESOLUTION: f64 = 0.1;
 
@@ -85,6 +88,22 @@ impl Series {
         [&self.steps[self.closure - 1], &self.steps[self.steps.len() - 1]]
     }
 
+    /// Whether something grows from before the loop closes to the end.
+    fn grows(&self, of: fn(&Step) -> f64) -> bool {
+        let [before, after] = self.before_and_after().map(of);
+        after > before
+    }
+
+    /// By how much something grows over the closure, as a part of the most it grew over as many steps before; the first
+    /// step, which begins with nothing, left out.
+    fn prominence(&self, of: fn(&Step) -> f64) -> f64 {
+        let [before, after] = self.before_and_after().map(of);
+        let window = self.steps.len() - self.closure;
+        let earlier = self.steps[1..self.closure].windows(window + 1);
+        let most = earlier.map(|steps| of(&steps[window]) - of(&steps[0])).fold(0.0, f64::max);
+        (after - before) / most
+    }
+
     /// The most that EMMI falls behind the particles' own mean in the steps before the loop closes.
     fn widest_gap(&self) -> f64 {
         self.steps[..self.closure].iter().map(Step::gap).fold(0.0, f64::max)
@@ -105,8 +124,21 @@ impl Step {
 }
 
 pub(super) fn section() -> Result<Section, Failure> {
-    let runs = SEEDS.into_iter().map(Series::run).collect::<Result<Vec<_>, _>>()?;
+    let runs = run_all(&SEEDS)?;
     Ok(Section { figures: vec![runs[0].figure()?], claims: claims(&runs) })
+}
+
+/// The filters with these seeds, in two threads.
+fn run_all(seeds: &[u64]) -> Result<Vec<Series>, Error> {
+    let run = |seeds: &[u64]| seeds.iter().map(|&seed| Series::run(seed)).collect::<Result<Vec<_>, _>>();
+    let (first, second) = seeds.split_at(seeds.len() / 2);
+    thread::scope(|scope| {
+        let second = scope.spawn(|| run(second));
+        let mut runs = run(first)?;
+        // A panic there is one here.
+        runs.extend(second.join().unwrap_or_else(|panic| resume_unwind(panic))?);
+        Ok(runs)
+    })
 }
 
 impl Series {
@@ -174,27 +206,34 @@ impl Series {
 }
 
 fn claims(runs: &[Series]) -> Vec<Claim> {
-    let listed = |of: fn(&Series) -> String| runs.iter().map(of).collect::<Vec<_>>().join(", ");
-    let rises = |run: &Series| {
+    let count = |of: &dyn Fn(&Series) -> bool| runs.iter().filter(|run| of(run)).count();
+    let rises = count(&|run| run.grows(|step| step.emmi));
+    let narrows = count(&|run| run.grows(|step| -step.gap()));
+    let falls = count(&|run| run.grows(|step| -step.entropy));
+    let unequalled = count(&|run| run.prominence(|step| step.emmi) > 1.0);
+    let clearer = count(&|run| run.prominence(|step| step.emmi) > run.prominence(|step| -step.entropy));
+    let changes = runs.iter().map(|run| {
         let [before, after] = run.before_and_after();
-        after.emmi > before.emmi
-    };
+        format!("{:+.3}", after.emmi - before.emmi)
+    });
+    let gaps = runs.iter().map(Series::widest_gap);
+    let [least, most] = gaps.fold([1.0, 0.0], |[low, high], gap| [gap.min(low), gap.max(high)]);
     let below = runs.iter().flat_map(|run| &run.steps).filter(|step| step.gap() >= 0.0).count();
     let steps = runs.iter().map(|run| run.steps.len()).sum::<usize>();
     let [before, after] = runs[0].before_and_after();
     let fall = before.entropy - after.entropy;
+    let all = runs.len();
     vec![
-        Claim::new(
+        Claim::corrected(
             "Abstract",
             "EMMI detects the change in certainty produced by closing a large loop.",
-            runs.iter().all(rises),
+            10 * rises.min(narrows) >= 9 * all,
             format!(
-                "rises over the closure in each of {} runs: {}",
-                runs.len(),
-                listed(|run| {
-                    let [before, after] = run.before_and_after();
-                    format!("{:.4} to {:.4}", before.emmi, after.emmi)
-                })
+                "in nearly all runs: it rises over the closure in {rises} of {all} runs ({}), and comes nearer to the \
+                 particles' own mean in {narrows}; but in {} it had risen as much before, when a corridor was settled: it \
+                 tells how certain the filter is, not what made it so",
+                changes.collect::<Vec<_>>().join(", "),
+                all - unequalled
             ),
         ),
         Claim::new(
@@ -202,18 +241,18 @@ fn claims(runs: &[Series]) -> Vec<Claim> {
             "The mean information of the expected map quantifies the inconsistencies in it.",
             below == steps,
             format!(
-                "EMMI is at most the particles' own mean in {below} of {steps} steps; the gap before the closure is up \
-                 to {}",
-                listed(|run| format!("{:.3}", run.widest_gap()))
+                "EMMI is at most the particles' own mean in {below} of {steps} steps; before the closure the gap is up \
+                 to {least:.3} to {most:.3}, by the run"
             ),
         ),
-        Claim::new(
+        Claim::corrected(
             "Abstract",
             "It is better suited to this than the entropy of the map.",
-            after.margin() > fall.abs(),
+            after.margin() > fall.abs() && 3 * clearer > 2 * all,
             format!(
-                "the closure lowers the entropy by {fall:.0} bits, less than the {:.0} that a margin of 1 m of unknown \
-                 cells adds; EMMI does not feel the margin",
+                "both turn: the entropy falls over the closure in {falls} of {all} runs. Beside the largest change over as \
+                 many steps before, the closure shows more in EMMI in {clearer}. In the run drawn it \
+                 takes {fall:.0} bits, where a margin of 1 m of unknown cells adds {:.0}; EMMI does not feel the margin",
                 after.margin()
             ),
         ),

@@ -1,24 +1,47 @@
-//! A digest of a million results in both formats: the same number on every platform and in every build.
+//! Digests of a million results in both formats, and of integrals: the same numbers on every platform and in every build.
 
 use mean_information::cell::{
     entropy, entropy_from_log_odds, information, information_from_log_odds, occupancy_from_log_odds,
 };
 use mean_information::elementary::{exp, ln, sqrt};
-use mean_information::limit::{Weight, closed_form};
+use mean_information::limit::{RadialModel, RepeatedScans, Weight, adaptive, closed_form, rigorous};
 use mean_information::map::{Geometry, Grid, encoding::Probability};
+use mean_information::quadrature::{adaptive::GaussKronrod, rigorous::Rigorous};
 use mean_information::sensor::{GaussianSensor, InverseSensorModel};
 use mean_information::{Real, Tally, cell::Cell};
 
-/// The digest, everywhere. If it changes and what is digested did not, results changed: say so in CHANGELOG.md.
-pub(crate) const DIGEST: u64 = 0x3e0b_a3be_7730_d1b9;
+/// The digests of results and of integrals, everywhere. If one changes and what is digested did not, results changed: say so
+/// in CHANGELOG.md.
+pub(crate) const DIGESTS: [u64; 2] = [0x3e0b_a3be_7730_d1b9, 0xd446_2232_0325_b87e];
 
 /// FNV-1a over the bits of every result.
 struct Digest(u64);
 
 impl Digest {
+    fn new() -> Self {
+        Self(0xcbf2_9ce4_8422_2325)
+    }
+
     fn update<T: Real>(&mut self, result: T) {
         for byte in result.widen().to_bits().to_le_bytes() {
             self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+    }
+}
+
+impl Digest {
+    /// Both limits of a model, with all that is said of them.
+    fn update_with_limits<M: RadialModel>(&mut self, model: &M, relative: f64) {
+        let settings = GaussKronrod::new().relative(M::Float::nearest(relative));
+        for weight in [Weight::Radial, Weight::Area] {
+            let estimate = adaptive(model, weight, &settings).expect("a room");
+            let enclosure = rigorous(model, weight, &Rigorous::default()).expect("a room");
+            for result in [estimate.value, estimate.error, enclosure.lower, enclosure.upper] {
+                self.update(result);
+            }
+            for evaluations in [estimate.evaluations, enclosure.evaluations] {
+                self.update(evaluations as f64);
+            }
         }
     }
 }
@@ -31,9 +54,14 @@ fn next(state: &mut u64) -> u64 {
     *state
 }
 
+/// Both digests.
+pub(crate) fn digests() -> [u64; 2] {
+    [results(), integrals()]
+}
+
 /// The digest of about a million and a quarter results.
-pub(crate) fn digest() -> u64 {
-    let (mut digest, mut tally) = (Digest(0xcbf2_9ce4_8422_2325), Tally::new());
+fn results() -> u64 {
+    let (mut digest, mut tally) = (Digest::new(), Tally::new());
     let mut state = 0x9e37_79b9_7f4a_7c15;
     for _ in 0..50_000 {
         let bits = next(&mut state);
@@ -92,7 +120,24 @@ pub(crate) fn digest() -> u64 {
     digest.0
 }
 
+/// The digest of the limits of three dozen rooms, `z / σ` from `2^-20` to `2^30`, by both integrals.
+fn integrals() -> u64 {
+    let mut digest = Digest::new();
+    let mut state = 0x9e37_79b9_7f4a_7c15;
+    for _ in 0..36 {
+        let bits = next(&mut state);
+        let ratio = f64::from_parts((1 << 20) + (bits & 0xf_ffff), ((bits >> 20) % 50) as i32 - 40);
+        let sigma = 0.01 + 1e-4 * ((bits >> 50) as f64);
+        let double = GaussianSensor::new(ratio * sigma, sigma).expect("positive");
+        digest.update_with_limits(&double, 1e-12);
+        let single = GaussianSensor::new((ratio * sigma) as f32, sigma as f32).expect("positive");
+        digest.update_with_limits(&single, 1e-5);
+        digest.update_with_limits(&RepeatedScans::new(double, 3).expect("positive"), 1e-9);
+    }
+    digest.0
+}
+
 #[test]
 fn a_million_results_have_not_changed() {
-    assert_eq!(digest(), DIGEST);
+    assert_eq!(digests(), DIGESTS);
 }

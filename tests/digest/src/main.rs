@@ -1,4 +1,4 @@
-//! Prints the digest of a million results, for `tests/same_bits.rs`.
+//! Prints the digests of a million results and of integrals, for `tests/same_bits.rs`.
 //!
 //!     cargo run --release --package digest
 
@@ -7,5 +7,7 @@
 mod digest;
 
 fn main() {
-    println!("{:016x}", digest::digest());
+    for digest in digest::digests() {
+        println!("{digest:016x}");
+    }
 }

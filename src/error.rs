@@ -22,15 +22,6 @@ pub enum Error {
         /// The allowed range, in words.
         allowed: &'static str,
     },
-    /// A break point of an integral that is not finite or out of order.
-    BreakPoint {
-        /// Its place in the list, from 0.
-        index: usize,
-        /// Its value.
-        value: f64,
-        /// The allowed range, in words.
-        allowed: &'static str,
-    },
     /// An item of a list outside its domain.
     Item {
         /// What it is of which item.
@@ -85,11 +76,6 @@ impl Error {
     pub(crate) fn out_of_range(what: &'static str, value: f64, allowed: &'static str) -> Self {
         Self::OutOfRange { what, value, allowed }
     }
-
-    /// An [`Error::BreakPoint`].
-    pub(crate) fn break_point(index: usize, value: f64, allowed: &'static str) -> Self {
-        Self::BreakPoint { index, value, allowed }
-    }
 }
 
 /// The error if `value` is not positive and finite.
@@ -110,9 +96,6 @@ impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::OutOfRange { what, value, allowed } => write!(f, "{what} is {value}, allowed is {allowed}"),
-            Self::BreakPoint { index, value, allowed } => {
-                write!(f, "break point {index} is {value}, allowed is {allowed}")
-            }
             Self::Item { what, index, value, allowed } => {
                 write!(f, "{what} {index} is {value}, allowed is {allowed}")
             }

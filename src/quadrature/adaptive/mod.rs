@@ -135,7 +135,7 @@ impl<T: Real> GaussKronrod<T> {
     /// Error, status and special case as for [`integrate`](Self::integrate). Points may repeat.
     ///
     /// # Errors
-    /// As for [`integrate`](Self::integrate), with fewer than two points among them; [`Error::BreakPoint`] if a point
+    /// As for [`integrate`](Self::integrate), with fewer than two points among them; [`Error::Item`] if a point
     /// is not finite or below the one before it.
     ///
     /// ```
@@ -147,11 +147,13 @@ impl<T: Real> GaussKronrod<T> {
     /// ```
     pub fn integrate_between(&self, f: impl FnMut(T) -> T, points: &[T]) -> Result<Estimate<T>, Error> {
         for (index, &point) in points.iter().enumerate() {
+            let refused =
+                |allowed| Err(Error::Item { what: "break point", index, value: point.widen(), allowed });
             if !point.is_finite() {
-                return Err(Error::break_point(index, point.widen(), "finite numbers"));
+                return refused("finite numbers");
             }
             if index > 0 && point < points[index - 1] {
-                return Err(Error::break_point(index, point.widen(), "the point before it, or above"));
+                return refused("the point before it, or above");
             }
         }
         let (Some(&lower), Some(&upper)) = (points.first(), points.get(1..).and_then(<[T]>::last)) else {

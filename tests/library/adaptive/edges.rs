@@ -184,7 +184,7 @@ fn settings_that_mean_nothing_are_refused_with_what_is_allowed() {
         between(&[0.0, 2.0, 1.5]).to_string(),
         "break point 2 is 1.5, allowed is the point before it, or above"
     );
-    assert!(matches!(between(&[0.0, f64::NAN, 1.5]), Error::BreakPoint { index: 1, .. }));
+    assert!(matches!(between(&[0.0, f64::NAN, 1.5]), Error::Item { what: "break point", index: 1, .. }));
     assert_eq!(between(&[0.25]).to_string(), "number of break points is 1, allowed is 2 or more");
     assert!(matches!(between(&[]), Error::OutOfRange { .. }));
 }

@@ -45,7 +45,11 @@ impl Arguments {
             ..Options::default()
         };
         let weights = maps::read_weights(&self.weights, &options)?;
-        let expected = maps::read_particles(&self.particles, &options, Expecting(&weights))?;
+        let expected = maps::read_particles(
+            &self.particles,
+            &options,
+            Expecting { weights: &weights, max_cells: self.max_cells },
+        )?;
         let expected = expected.map_err(|error| Problem::new(&self.weights, error.to_string()))?;
         let name = self.particles.display().to_string();
         let report = Emmi { name, weights, resolution: self.resolution, expected };
@@ -65,13 +69,16 @@ struct Expected {
 }
 
 /// Takes the expected map of particles with these weights.
-struct Expecting<'a>(&'a [f64]);
+struct Expecting<'a> {
+    weights: &'a [f64],
+    max_cells: u64,
+}
 
 impl WithMaps for Expecting<'_> {
     type Output = Result<Expected, mean_information::Error>;
 
     fn with<E: Readable>(self, maps: Vec<Grid<E>>) -> Self::Output {
-        let hypotheses = Hypotheses::new(&maps, self.0)?;
+        let hypotheses = Hypotheses::new(&maps, self.weights)?.with_max_cells(self.max_cells);
         let progress = Progress::new(maps.len() + 1);
         progress.begin("expected map");
         let expected = hypotheses.expected_map()?;
@@ -86,7 +93,7 @@ impl WithMaps for Expecting<'_> {
         // A map in which nothing is observed has mean information 0. The numbers are of the maps' own precision.
         let own = |m: &Measures| E::Float::nearest(m.mean_information.map_or(0.0, Number::widen));
         let values: Vec<E::Float> = particles.iter().map(own).collect();
-        let mean_of_particles = Number::new(weighted_mean(self.0, &values)?);
+        let mean_of_particles = Number::new(weighted_mean(self.weights, &values)?);
         Ok(Expected { measures, mean_of_particles, particles })
     }
 }

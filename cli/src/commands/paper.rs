@@ -26,7 +26,7 @@ impl Arguments {
         let paper = Paper::reproduce()?;
         if let Some(folder) = &self.out {
             for figure in &paper.figures {
-                files.add(&folder.join(figure.file), figure.svg.clone().into_bytes());
+                files.add(&folder.join(figure.file), figure.picture.file().into_bytes());
             }
             files.add(&folder.join("index.html"), paper.page().into_bytes());
         }

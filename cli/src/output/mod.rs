@@ -11,7 +11,7 @@ pub use files::Files;
 pub use number::Number;
 pub(crate) use number::{decimal_exponent, short};
 pub use record::{Record, Value};
-pub use table::{table, with_notes, wrapped};
+pub use table::{table, text_table, with_notes, wrapped};
 pub use writing::Writing;
 
 use clap::ValueEnum;

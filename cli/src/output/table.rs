@@ -6,9 +6,23 @@ use comfy_table::{Cell, CellAlignment, ContentArrangement, LineStyle, Table, pre
 /// Names are wrapped to this many characters, as far as they have folders to wrap after.
 const NAME_WIDTH: usize = 20;
 
-/// A table with its columns set right, but the first, which holds names. The same text in a terminal and in a file: as
-/// wide as its contents, for a number broken in two is no number.
+/// A table of numbers: its columns are set right, but the first, which holds names. The same text in a terminal and in
+/// a file: as wide as its contents, for a number broken in two is no number.
 pub fn table<const N: usize>(header: [&str; N], rows: impl IntoIterator<Item = [String; N]>) -> String {
+    aligned(header, rows, CellAlignment::Right)
+}
+
+/// A table of texts, set left.
+pub fn text_table<const N: usize>(header: [&str; N], rows: impl IntoIterator<Item = [String; N]>) -> String {
+    aligned(header, rows, CellAlignment::Left)
+}
+
+/// The columns but the first as they are to be aligned.
+fn aligned<const N: usize>(
+    header: [&str; N],
+    rows: impl IntoIterator<Item = [String; N]>,
+    alignment: CellAlignment,
+) -> String {
     let rows: Vec<_> = rows.into_iter().collect();
     // Lines between rows only where a row may have several lines itself.
     let tall = rows.iter().flatten().any(|text| text.contains('\n'));
@@ -19,7 +33,7 @@ pub fn table<const N: usize>(header: [&str; N], rows: impl IntoIterator<Item = [
     table.set_header(header.map(Cell::new));
     table.add_rows(rows);
     for column in table.column_iter_mut().skip(1) {
-        column.set_cell_alignment(CellAlignment::Right);
+        column.set_cell_alignment(alignment);
     }
     table.trim_fmt() + "\n"
 }

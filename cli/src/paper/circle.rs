@@ -2,7 +2,7 @@
 
 use super::{Claim, Figure, Section};
 use crate::failure::Failure;
-use crate::plots::{MapPanel, panels};
+use crate::plots::{MapPanel, Sheet, panels};
 use mean_information::build::CartesianRoom;
 use mean_information::map::Grid;
 use mean_information::sensor::GaussianSensor;
@@ -18,7 +18,7 @@ pub(super) fn section() -> Result<Section, Failure> {
     let [coarse, fine] = RESOLUTIONS.map(grid);
     let (coarse, fine) = (coarse?, fine?);
     let [a, b] = [&coarse, &fine].map(Grid::tally);
-    let picture = panels(
+    let rows = panels(
         &[
             MapPanel::new(&coarse, "(a) cells of 16 cm", format!("{:.6} bits/cell", a.mean_information()))?
                 .with_places(vec![[0.0, 0.0]]),
@@ -37,10 +37,13 @@ pub(super) fn section() -> Result<Section, Failure> {
             a.observed(),
             b.observed()
         ),
-        svg: picture.document(&format!(
-            "The circular room in coarse and in fine cells: free within, a ring of occupied cells at 2 metres that fades \
+        picture: Sheet::new(
+            rows,
+            format!(
+                "The circular room in coarse and in fine cells: free within, a ring of occupied cells at 2 metres that fades \
              on either side, unknown outside. {a_mean:.6} and {b_mean:.6} bits per cell."
-        )),
+            ),
+        ),
     };
     let claims = vec![Claim::new(
         "Section II, Fig. 4",

@@ -5,7 +5,7 @@
 
 use super::{Claim, Figure, Section};
 use crate::failure::Failure;
-use crate::plots::{Chart, Colour, Curve, MapPanel, Panel, Scale, Svg, panels};
+use crate::plots::{Chart, Colour, Curve, MapPanel, Panel, Scale, Sheet, Svg, panels};
 use crate::simulation::{Filter, Journey, Random, RoomName, Scanner, Settings, trajectory::Motion};
 use mean_information::Error;
 use mean_information::build::{Direction, Hypotheses, Pose};
@@ -175,8 +175,8 @@ impl Series {
             let title = format!("expected map, step {step}");
             MapPanel::new(expected, &title, format!("EMMI {emmi:.4} bits/cell"))
         };
-        let maps = panels(&[panel(self.closure - 1)?, panel(self.steps.len() - 1)?], 2);
-        let picture = Svg::stacked(&[Svg::of_plot(&self.chart())?, maps]);
+        let mut rows = vec![vec![Svg::of_plot(&self.chart())?]];
+        rows.extend(panels(&[panel(self.closure - 1)?, panel(self.steps.len() - 1)?], 2));
         Ok(Figure {
             file: "loop-closure.svg",
             title: "The abstract: EMMI over the closing of a loop",
@@ -194,13 +194,16 @@ impl Series {
                 before.entropy - after.entropy,
                 after.margin()
             ),
-            svg: picture.document(&format!(
-                "Two plots over the steps of a particle filter, and its expected map before and after the loop closes. \
+            picture: Sheet::new(
+                rows,
+                format!(
+                    "Two plots over the steps of a particle filter, and its expected map before and after the loop closes. \
                  EMMI falls to {:.4} before the closure and rises to {:.4} after it, while the mean of the particles' own \
                  mean information hardly moves; the entropy rises with the explored area and falls a little. The expected \
                  map is blurred before and sharp after.",
-                before.emmi, after.emmi
-            )),
+                    before.emmi, after.emmi
+                ),
+            ),
         })
     }
 }

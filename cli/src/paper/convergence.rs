@@ -3,7 +3,7 @@
 use super::{Claim, Figure, Section};
 use crate::convergence::{Convergence, GridKind, Series};
 use crate::failure::Failure;
-use crate::plots::{ConvergencePlot, Svg};
+use crate::plots::{ConvergencePlot, Sheet, Svg};
 use mean_information::Error;
 use mean_information::limit::{Weight, closed_form, rigorous};
 use mean_information::quadrature::rigorous::Rigorous;
@@ -22,7 +22,7 @@ fn convergence([range, sigma]: [f64; 2]) -> Result<Convergence, Error> {
 pub(super) fn section() -> Result<Section, Failure> {
     let rooms = ROOMS.into_iter().map(convergence).collect::<Result<Vec<_>, _>>()?;
     let plots = rooms.iter().map(|room| Svg::of_plot(&ConvergencePlot::new(room)));
-    let picture = Svg::stacked(&plots.collect::<Result<Vec<_>, _>>()?);
+    let rows = plots.map(|plot| Ok(vec![plot?])).collect::<Result<_, Failure>>()?;
 
     let (polar, cartesian) = (&rooms[0].series[0], &rooms[0].series[1]);
     let finest = |series: &Series| {
@@ -42,12 +42,15 @@ pub(super) fn section() -> Result<Section, Failure> {
             cartesian.limit,
             rooms.iter().flat_map(|room| &room.series).map(|series| series.rows.len()).sum::<usize>()
         ),
-        svg: picture.document(&format!(
-            "Mean information against the cell size for two rooms. Polar grids tend to the limit of Eq. 7, {:.4} and {:.4}; \
+        picture: Sheet::new(
+            rows,
+            format!(
+                "Mean information against the cell size for two rooms. Polar grids tend to the limit of Eq. 7, {:.4} and {:.4}; \
              Cartesian grids to a lower one, {:.4} and {:.4}. Proved bands about the limits narrow as cells shrink and hold \
              all grids.",
-            polar.limit, rooms[1].series[0].limit, cartesian.limit, rooms[1].series[1].limit
-        )),
+                polar.limit, rooms[1].series[0].limit, cartesian.limit, rooms[1].series[1].limit
+            ),
+        ),
     };
 
     let enclosed = [Weight::Radial, Weight::Area].map(|weight| {

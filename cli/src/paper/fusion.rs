@@ -3,7 +3,7 @@
 use super::{Claim, Figure, Section};
 use crate::failure::Failure;
 use crate::output::short;
-use crate::plots::{MapPanel, panels};
+use crate::plots::{MapPanel, Sheet, panels};
 use crate::simulation::{Random, Readings, Room, RoomName, Scanner, insert, trajectory};
 use mean_information::build::{Direction, Pose, ScanMap};
 use mean_information::cell::{Cell, information};
@@ -133,7 +133,7 @@ fn figure(scans: &Scans, maps: &[Grid<LogOdds<f64>>; 4]) -> Result<Figure, Failu
         let text = format!("{:.4} bits/cell, {} cells", tally.mean_information(), tally.observed());
         MapPanel::new(grid, title, text).map(|panel| panel.with_places(places.to_vec()))
     };
-    let picture = panels(
+    let rows = panels(
         &[
             panel("(a) first scan", &maps[0], &tallies[0], &places[..1])?,
             panel("(b) second scan", &maps[1], &tallies[1], &places[1..])?,
@@ -153,10 +153,13 @@ fn figure(scans: &Scans, maps: &[Grid<LogOdds<f64>>; 4]) -> Result<Figure, Failu
              as the other says occupied: they cancel to exactly 1/2, and leave the mean as unknown.",
             scans.contradictions()?
         ),
-        svg: picture.document(&format!(
-            "Four maps of the same room. First scan: {alone_1:.4} bits per cell. Second scan, from half a step aside: \
+        picture: Sheet::new(
+            rows,
+            format!(
+                "Four maps of the same room. First scan: {alone_1:.4} bits per cell. Second scan, from half a step aside: \
              {alone_2:.4}. Both aligned, with sharp walls: {aligned:.4}. Both misaligned, with double walls: {misaligned:.4}."
-        )),
+            ),
+        ),
     })
 }
 

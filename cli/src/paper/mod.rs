@@ -11,7 +11,8 @@ mod resolution;
 mod sensor;
 
 use crate::failure::Failure;
-use crate::output::{Record, Report, Value, table};
+use crate::output::{Record, Report, Value, text_table};
+use crate::plots::Sheet;
 use crate::progress::Progress;
 use std::panic::resume_unwind;
 use std::thread;
@@ -28,7 +29,7 @@ pub struct Figure {
     /// What it shows here.
     pub shows: String,
     /// The picture, which describes itself to those who do not see it.
-    pub svg: String,
+    pub picture: Sheet,
 }
 
 /// Something the report says that can be checked.
@@ -165,7 +166,7 @@ impl Report for Paper {
                 claim.verdict.name().to_owned(),
             ]
         });
-        table(["in the report", "claim", "measured", "verdict"], rows)
+        text_table(["in the report", "claim", "measured", "verdict"], rows)
     }
 
     fn rows(&self) -> Vec<Record> {
@@ -227,7 +228,11 @@ mod tests {
         assert_eq!(files, ["figure-3.svg", "figure-4.svg"]);
         let page = paper.page();
         for figure in &paper.figures {
-            assert!(page.contains(&figure.svg) && page.contains(figure.should), "{}", figure.file);
+            assert!(
+                page.contains(&figure.picture.element()) && page.contains(figure.should),
+                "{}",
+                figure.file
+            );
         }
         assert!(page.contains("2 claims: 2 hold as they stand, 0 are corrected, 0 failed."), "{page}");
         assert_eq!(paper.page(), Paper::of(&jobs).unwrap().page());

@@ -46,12 +46,12 @@ same on every run and machine.</p>
 }
 
 fn figure(figure: &Figure) -> String {
-    let Figure { file, title, should, shows, svg } = figure;
+    let Figure { file, title, should, shows, picture } = figure;
+    let picture = picture.element();
     let id = file.trim_end_matches(".svg");
     let [title, should, shows] = [title, should, shows.as_str()].map(escaped);
     format!(
-        "<section id=\"{id}\">\n<h2>{title}</h2>\n<figure>\n<div class=\"sheet\" tabindex=\"0\" role=\"group\" aria-label=\"{title}\">\n\
-         {svg}</div>\n<figcaption>\n<dl>\n<dt>What the report says it shows</dt>\n<dd>{should}</dd>\n<dt>What it shows here</dt>\n\
+        "<section id=\"{id}\">\n<h2>{title}</h2>\n<figure>\n{picture}<figcaption>\n<dl>\n<dt>What the report says it shows</dt>\n<dd>{should}</dd>\n<dt>What it shows here</dt>\n\
          <dd>{shows}</dd>\n</dl>\n</figcaption>\n</figure>\n</section>\n"
     )
 }

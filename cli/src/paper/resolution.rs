@@ -2,7 +2,7 @@
 
 use super::{Claim, Figure, Section};
 use crate::failure::Failure;
-use crate::plots::{Chart, Colour, Curve, MapPanel, Panel, Scale, Svg, panels};
+use crate::plots::{Chart, Colour, Curve, MapPanel, Panel, Scale, Sheet, Svg, panels};
 use crate::simulation::{Journey, RoomName, Scanner, insert};
 use mean_information::build::ScanMap;
 use mean_information::map::Grid;
@@ -142,8 +142,8 @@ impl Measured {
             let text = format!("{:.4} bits/cell", grid.tally().mean_information());
             MapPanel::new(&grid, &format!("{name} cells of {size} m"), text)
         });
-        let maps = panels(&shown.collect::<Result<Vec<_>, _>>()?, 3);
-        let picture = Svg::stacked(&[maps, Svg::of_plot(&self.chart())?]);
+        let mut rows = panels(&shown.collect::<Result<Vec<_>, _>>()?, 3);
+        rows.push(vec![Svg::of_plot(&self.chart())?]);
         let [(_, few_first), (_, few_last)] = self.few.ends(Tally::mean_information);
         let [_, (_, many_last)] = self.many.ends(Tally::mean_information);
         let ((size, peak), (_, many_peak)) = (self.few.peak(), self.many.peak());
@@ -161,11 +161,14 @@ impl Measured {
                 self.spread(),
                 most_entropy / entropy
             ),
-            svg: picture.document(&format!(
-                "Maps of one room in cells of 50, 20 and 5 cm, and two plots against the cell size. Mean information \
+            picture: Sheet::new(
+                rows,
+                format!(
+                    "Maps of one room in cells of 50, 20 and 5 cm, and two plots against the cell size. Mean information \
                  rises to {peak:.3} at {size} m and falls to {few_last:.3} at 2.5 mm with 720 beams; with 3600 beams it \
                  is {many_last:.3} at 5 mm; averaged it only rises as cells shrink. Total entropy rises without bound."
-            )),
+                ),
+            ),
         })
     }
 

@@ -2,7 +2,7 @@
 
 use super::{Claim, Figure, Section};
 use crate::failure::Failure;
-use crate::plots::{Chart, Colour, Curve, Panel, Scale, Svg};
+use crate::plots::{Chart, Colour, Curve, Panel, Scale, Sheet, Svg};
 use mean_information::Real;
 use mean_information::sensor::{GaussianSensor, InverseSensorModel};
 
@@ -43,9 +43,11 @@ pub(super) fn section() -> Result<Section, Failure> {
              height.",
             200.0 * (reach - RANGE)
         ),
-        svg: Svg::of_plot(&chart)?.document(
+        picture: Sheet::new(
+            vec![vec![Svg::of_plot(&chart)?]],
             "Occupancy against the distance: 0 up to 47 cm, a peak of 1 at 50 cm, down to one half at 51.2 cm, and one half \
-             beyond.",
+             beyond."
+                .to_owned(),
         ),
     };
     let edge = sensor.occupancy(reach);

@@ -6,7 +6,10 @@ use super::{Drawing, LABEL, TITLE};
 use crate::output::short;
 use plotters::coord::Shift;
 use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
 
+/// Narrow enough for its letters to be read on a telephone.
+const WIDTH: u32 = 640;
 const PANEL_HEIGHT: u32 = 350;
 const TITLE_HEIGHT: u32 = 36;
 /// What is left of a panel's height between its axes.
@@ -121,7 +124,7 @@ impl Scale {
 }
 
 impl<const PANELS: usize> Drawing for Chart<PANELS> {
-    const SIZE: (u32, u32) = (900, TITLE_HEIGHT + PANELS as u32 * PANEL_HEIGHT);
+    const SIZE: (u32, u32) = (WIDTH, TITLE_HEIGHT + PANELS as u32 * PANEL_HEIGHT);
 
     fn draw_on<B: DrawingBackend>(
         &self,
@@ -150,6 +153,7 @@ impl<const PANELS: usize> Chart<PANELS> {
         let free = legend / (1.0 - legend) * (1.0 + 2.0 * MARGINS[1]);
         let vertical = panel.scale.axis(own().map(|&(_, y)| panel.scale.place(y)), MARGINS[1], free);
         let (bottom, top) = (vertical.range.start, vertical.range.end);
+        let middle = f64::midpoint(horizontal.range.start, horizontal.range.end);
         let mut chart = ChartBuilder::on(area)
             .margin(12)
             .margin_right(28)
@@ -172,9 +176,11 @@ impl<const PANELS: usize> Chart<PANELS> {
             let x = self.scale.place(x);
             let line = [(x, bottom), (x, top)];
             chart.draw_series(DashedLineSeries::new(line, 5, 5, BLACK.stroke_width(1)))?;
-            let style = LABEL.into_font().color(&BLACK);
+            // On the side that has more room.
+            let (side, away) = if x > middle { (HPos::Right, -6) } else { (HPos::Left, 6) };
+            let style = LABEL.into_font().color(&BLACK).pos(Pos::new(side, VPos::Top));
             let foot = EmptyElement::at((x, bottom + 0.08 * (top - bottom)));
-            chart.draw_series([foot + Text::new(name, (6, 0), style)])?;
+            chart.draw_series([foot + Text::new(name, (away, 0), style)])?;
         }
         for curve in &panel.curves {
             let (colour, dots) = (curve.colour.rgb(), curve.dots);

@@ -8,7 +8,8 @@ use crate::output::{decimal_exponent, short};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-const SIZE: (u32, u32) = (900, 620);
+/// Narrow enough for its letters to be read on a telephone.
+const SIZE: (u32, u32) = (720, 560);
 /// The part of the vertical axis above the curves, where the legend meets none.
 const LEGEND_ROOM: f64 = 0.45;
 
@@ -45,8 +46,8 @@ impl<'a> ConvergencePlot<'a> {
         Axis { ticks: ticks.filter(|x| range.contains(x)).collect(), range }
     }
 
-    /// From below the lowest value and limit to above the highest, in steps of 1, 2 or 5 times a power of ten; the bands are
-    /// cut to it.
+    /// From below the lowest value and limit to above the highest, in steps of 1, 2 or 5 times a power of ten, but no tick
+    /// above 1, which nothing exceeds; the bands are cut to the ticks.
     fn vertical(&self) -> Axis {
         let of_series = |series: &Series| {
             series.rows.iter().map(|row| row.mean_information).chain([series.limit]).collect::<Vec<_>>()
@@ -58,7 +59,8 @@ impl<'a> ConvergencePlot<'a> {
         let rough = span / 5.0;
         let decade: f64 = format!("1e{}", decimal_exponent(rough)).parse().unwrap_or(rough);
         let step = decade * [1.0, 2.0, 5.0, 10.0].into_iter().find(|m| m * decade >= rough).unwrap_or(10.0);
-        let (first, last) = ((low / step - 0.3).floor(), (high / step + 0.3).ceil());
+        let (first, last) =
+            ((low / step - 0.3).floor(), (high / step + 0.3).ceil().min((1.0 / step).round()));
         let ticks = (first as i64..=last as i64).map(|n| n as f64 * step).collect();
         Axis { range: first * step..(last + LEGEND_ROOM * (last - first)) * step, ticks }
     }
@@ -84,7 +86,9 @@ impl Drawing for ConvergencePlot<'_> {
         let paper = paper.titled(&title, TITLE.into_font().color(&BLACK))?;
         let (horizontal, vertical) = (self.horizontal(), self.vertical());
         let ends = [horizontal.range.start, horizontal.range.end];
-        let inside = |y: f64| y.clamp(vertical.range.start, vertical.range.end);
+        // The legend has the room above the ticks.
+        let highest = vertical.ticks.last().map_or(vertical.range.end, |&tick| tick);
+        let inside = |y: f64| y.clamp(vertical.range.start, highest);
         let mut chart = ChartBuilder::on(&paper)
             .margin(12)
             .margin_right(28)

@@ -16,7 +16,7 @@ pub use chart::{Chart, Colour, Curve, Panel, Scale};
 pub use convergence::ConvergencePlot;
 pub use heat_map::HeatMap;
 pub use panels::{MapPanel, panels};
-pub use svg::{Svg, escaped};
+pub use svg::{Sheet, Svg, escaped};
 pub use sweep::SweepPlot;
 
 use crate::failure::Failure;

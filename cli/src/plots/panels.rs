@@ -13,6 +13,8 @@ const WIDTH: u32 = 900;
 const GAP: f64 = 16.0;
 /// For a title and a line of text above a map.
 const TITLES: f64 = 50.0;
+/// For the scale below a map.
+const SCALE: f64 = 44.0;
 /// A cell is drawn as a square of pixels, so many that the map has about this many pixels a side: viewers that smooth
 /// what they enlarge would blur it.
 const PIXELS: usize = 1000;
@@ -69,53 +71,58 @@ fn colour(occupancy: Option<f64>) -> [u8; 3] {
     }
 }
 
-/// The panels in rows of so many, with a scale.
-pub fn panels(panels: &[MapPanel], columns: usize) -> Svg {
+/// The panels in rows of so many, each with a scale.
+pub fn panels(panels: &[MapPanel], columns: usize) -> Vec<Vec<Svg>> {
     let ends =
         |k: usize, first: f64, of: fn(f64, f64) -> f64| panels.iter().map(|p| p.extent[k]).fold(first, of);
     let [left, lower] = [0, 1].map(|k| ends(k, f64::INFINITY, f64::min));
     let [right, upper] = [2, 3].map(|k| ends(k, f64::NEG_INFINITY, f64::max));
-    let width = (f64::from(WIDTH) - GAP * (columns as f64 + 1.0)) / columns as f64;
-    // Pixels per metre.
-    let scale = width / (right - left);
-    let height = scale * (upper - lower);
-    let rows = panels.len().div_ceil(columns);
-    let mut sheet = Svg::new(WIDTH, (rows as f64 * (TITLES + height + GAP) + 36.0) as u32);
-    for (index, panel) in panels.iter().enumerate() {
-        let x = GAP + (index % columns) as f64 * (width + GAP);
-        let y = (index / columns) as f64 * (TITLES + height + GAP);
-        sheet.add_text(x + width / 2.0, y + 20.0, "bold", &panel.title);
-        sheet.add_text(x + width / 2.0, y + 42.0, "normal", &panel.text);
-        let top = y + TITLES;
+    let world = [left, lower, right, upper];
+    let width = WIDTH / columns as u32;
+    panels.chunks(columns).map(|row| row.iter().map(|panel| panel.draw(world, width)).collect()).collect()
+}
+
+impl MapPanel {
+    /// The panel with this part of the world, in metres.
+    fn draw(&self, [left, lower, right, upper]: [f64; 4], whole_width: u32) -> Svg {
+        let width = f64::from(whole_width) - GAP;
+        let x = GAP / 2.0;
+        // Pixels per metre.
+        let scale = width / (right - left);
+        let height = scale * (upper - lower);
+        let mut sheet = Svg::new(whole_width, (TITLES + height + SCALE) as u32);
+        sheet.add_text(x + width / 2.0, 20.0, "bold", &self.title);
+        sheet.add_text(x + width / 2.0, 42.0, "normal", &self.text);
         let [r, g, b] = UNKNOWN;
         sheet.add(&format!(
-            r#"<rect x="{x:.2}" y="{top:.2}" width="{width:.2}" height="{height:.2}" fill="rgb({r},{g},{b})"/>"#
+            r#"<rect x="{x:.2}" y="{TITLES:.2}" width="{width:.2}" height="{height:.2}" fill="rgb({r},{g},{b})"/>"#
         ));
-        let at = |[px, py]: [f64; 2]| [x + scale * (px - left), top + scale * (upper - py)];
+        let at = |[px, py]: [f64; 2]| [x + scale * (px - left), TITLES + scale * (upper - py)];
         let ([image_x, image_y], [far_x, far_y]) =
-            (at([panel.extent[0], panel.extent[3]]), at([panel.extent[2], panel.extent[1]]));
+            (at([self.extent[0], self.extent[3]]), at([self.extent[2], self.extent[1]]));
         sheet.add(&format!(
             r#"<image x="{image_x:.2}" y="{image_y:.2}" width="{:.2}" height="{:.2}" preserveAspectRatio="none" style="image-rendering:pixelated" href="data:image/png;base64,{}"/>"#,
             far_x - image_x,
             far_y - image_y,
-            BASE64_STANDARD.encode(&panel.png)
+            BASE64_STANDARD.encode(&self.png)
         ));
-        for [px, py] in panel.places.iter().map(|&place| at(place)) {
+        for [px, py] in self.places.iter().map(|&place| at(place)) {
             sheet.add(&format!(r#"<circle cx="{px:.2}" cy="{py:.2}" r="5" fill="{PATH}"/>"#));
         }
+        let y = TITLES + height + GAP;
+        sheet.add(&format!(
+            r##"<path d="M{x} {:.2}v10M{x} {y:.2}h{scale:.2}m0 -5v10" stroke="#000000" fill="none"/>"##,
+            y - 5.0
+        ));
+        sheet.add_text(x + scale + 24.0, y + 6.0, "normal", "1 m");
+        sheet
     }
-    let y = rows as f64 * (TITLES + height + GAP) + 8.0;
-    sheet.add(&format!(
-        r##"<path d="M{GAP} {:.2}v10M{GAP} {y:.2}h{scale:.2}m0 -5v10" stroke="#000000" fill="none"/>"##,
-        y - 5.0
-    ));
-    sheet.add_text(GAP + scale + 24.0, y + 6.0, "normal", "1 m");
-    sheet
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plots::Sheet;
     use mean_information::map::Geometry;
     use mean_information::map::encoding::Probability;
 
@@ -128,19 +135,18 @@ mod tests {
             let grid = Grid::<Probability<f64>>::new(width, 2, geometry, cells).unwrap();
             MapPanel::new(&grid, "a map", "of cells".to_owned()).unwrap()
         };
-        let sheet = panels(&[map([1.0, 2.0], 4).with_places(vec![[2.0, 2.5]]), map([3.0, 1.0], 6)], 2);
-        let text = sheet.document("two maps");
+        let rows = panels(&[map([1.0, 2.0], 4).with_places(vec![[2.0, 2.5]]), map([3.0, 1.0], 6)], 2);
+        let text = Sheet::new(rows, "two maps".to_owned()).file();
         let document = roxmltree::Document::parse(&text).unwrap();
         let number =
             |node: &roxmltree::Node, name: &str| node.attribute(name).unwrap().parse::<f64>().unwrap();
         let nodes = |tag: &'static str| document.descendants().filter(move |node| node.has_tag_name(tag));
         let images: Vec<_> = nodes("image").collect();
-        // The world is 5 m by 2 m, in panels of 426 pixels: 85.2 pixels per metre.
-        let scale = (f64::from(WIDTH) - 3.0 * GAP) / 2.0 / 5.0;
+        // The world is 5 m by 2 m, in panels of 434 pixels: 86.8 pixels per metre.
+        let scale = (f64::from(WIDTH) / 2.0 - GAP) / 5.0;
         for (image, [x, y, width]) in images.iter().zip([[0.0, 0.0, 2.0], [2.0, 1.0, 3.0]]) {
-            let left = if x == 0.0 { GAP } else { 2.0 * GAP + 5.0 * scale };
             for (name, expected) in [
-                ("x", left + x * scale),
+                ("x", GAP / 2.0 + x * scale),
                 ("y", TITLES + y * scale),
                 ("width", width * scale),
                 ("height", scale),
@@ -148,8 +154,9 @@ mod tests {
                 assert!((number(image, name) - expected).abs() <= 0.011, "{name} {}", number(image, name));
             }
         }
+        assert_eq!(nodes("svg").skip(1).map(|svg| number(&svg, "x")).collect::<Vec<_>>(), [0.0, 450.0]);
         let circle = nodes("circle").next().unwrap();
-        assert!((number(&circle, "cx") - GAP - scale).abs() <= 0.01);
+        assert!((number(&circle, "cx") - GAP / 2.0 - scale).abs() <= 0.01);
         assert!((number(&circle, "cy") - TITLES - scale / 2.0).abs() <= 0.01);
         assert!(images[0].attribute("href").unwrap().starts_with("data:image/png;base64,iVBOR"));
     }

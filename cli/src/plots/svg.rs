@@ -35,26 +35,6 @@ impl Svg {
         Ok(Self { width, height, body })
     }
 
-    /// Pictures below each other.
-    pub fn stacked(pictures: &[Self]) -> Self {
-        let width = pictures.iter().map(|picture| picture.width).max().unwrap_or(0);
-        let mut sheet = Self::new(width, pictures.iter().map(|picture| picture.height).sum());
-        let mut top = 0;
-        for picture in pictures {
-            sheet.place(picture, 0, top);
-            top += picture.height;
-        }
-        sheet
-    }
-
-    /// Puts a picture on the sheet.
-    pub fn place(&mut self, picture: &Self, x: u32, y: u32) {
-        let Self { width, height, body } = picture;
-        self.add(&format!(
-            "<svg x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\">\n{body}</svg>"
-        ));
-    }
-
     /// Adds an element.
     pub fn add(&mut self, element: &str) {
         self.body.push_str(element);
@@ -69,14 +49,63 @@ impl Svg {
         ));
     }
 
-    /// The file, or the element of a page, with a description for those who do not see it.
-    pub fn document(&self, description: &str) -> String {
+    /// The element, with more attributes.
+    fn element(&self, attributes: &str) -> String {
         let Self { width, height, body } = self;
-        let description = escaped(description);
         format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-             viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{description}\">\n{body}</svg>\n"
+            "<svg{attributes} width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\">\n{body}</svg>\n"
         )
+    }
+}
+
+/// Pictures that make one: rows below each other in a file; on a page, as many beside each other as it is wide.
+#[derive(Clone, Debug)]
+pub struct Sheet {
+    rows: Vec<Vec<Svg>>,
+    description: String,
+}
+
+impl Sheet {
+    /// The rows, with a description for those who do not see them.
+    pub fn new(rows: Vec<Vec<Svg>>, description: String) -> Self {
+        Self { rows, description }
+    }
+
+    /// The SVG file.
+    pub fn file(&self) -> String {
+        let size = |row: &[Svg]| {
+            (
+                row.iter().map(|svg| svg.width).sum::<u32>(),
+                row.iter().map(|svg| svg.height).max().unwrap_or(0),
+            )
+        };
+        let sizes: Vec<_> = self.rows.iter().map(|row| size(row)).collect();
+        let width = sizes.iter().map(|&(width, _)| width).max().unwrap_or(0);
+        let mut whole = Svg::new(width, sizes.iter().map(|&(_, height)| height).sum());
+        let mut y = 0;
+        for (row, (row_width, height)) in self.rows.iter().zip(sizes) {
+            let mut x = (width - row_width) / 2;
+            for picture in row {
+                whole.add(&picture.element(&format!(" x=\"{x}\" y=\"{y}\"")));
+                x += picture.width;
+            }
+            y += height;
+        }
+        let description = escaped(&self.description);
+        whole.element(&format!(
+            " xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" aria-label=\"{description}\""
+        ))
+    }
+
+    /// The element of a page.
+    pub fn element(&self) -> String {
+        let description = escaped(&self.description);
+        let row = |row: &Vec<Svg>| {
+            let pictures: String = row.iter().map(|svg| svg.element("")).collect();
+            format!("<div class=\"row\">\n{pictures}</div>\n")
+        };
+        let rows: String = self.rows.iter().map(row).collect();
+        format!("<div class=\"sheet\" role=\"img\" aria-label=\"{description}\">\n{rows}</div>\n")
     }
 }
 
@@ -93,18 +122,31 @@ mod tests {
     fn pictures_are_placed_and_described() {
         let mut picture = Svg::new(30, 20);
         picture.add_text(12.0, 7.5, "bold", "a < b & \"c\"");
-        let sheet = Svg::stacked(&[Svg::new(40, 50), picture]);
-        let text = sheet.document("what <it> shows");
-        let document = roxmltree::Document::parse(&text).unwrap();
+        let rows = vec![vec![Svg::new(40, 50), Svg::new(20, 30)], vec![picture]];
+        let sheet = Sheet::new(rows, "what <it> shows".to_owned());
+        let file = sheet.file();
+        let document = roxmltree::Document::parse(&file).unwrap();
         let root = document.root_element();
-        assert_eq!((root.attribute("width"), root.attribute("height")), (Some("40"), Some("70")));
+        assert_eq!((root.attribute("width"), root.attribute("height")), (Some("60"), Some("70")));
         assert_eq!(
             (root.attribute("role"), root.attribute("aria-label")),
             (Some("img"), Some("what <it> shows"))
         );
         let inner: Vec<_> = root.children().filter(|node| node.has_tag_name("svg")).collect();
-        assert_eq!((inner.len(), inner[1].attribute("y")), (2, Some("50")));
+        let places = inner.iter().map(|node| [node.attribute("x").unwrap(), node.attribute("y").unwrap()]);
+        assert_eq!(places.collect::<Vec<_>>(), [["0", "0"], ["40", "0"], ["15", "50"]]);
         let texts: Vec<_> = root.descendants().filter(|node| node.has_tag_name("text")).collect();
         assert_eq!(texts[0].text(), Some("a < b & \"c\""));
+
+        let element = sheet.element();
+        let document = roxmltree::Document::parse(&element).unwrap();
+        let root = document.root_element();
+        assert_eq!(
+            (root.attribute("role"), root.attribute("aria-label")),
+            (Some("img"), Some("what <it> shows"))
+        );
+        let rows: Vec<_> = root.children().filter(|node| node.has_tag_name("div")).collect();
+        let count = |row: &roxmltree::Node| row.children().filter(|node| node.has_tag_name("svg")).count();
+        assert_eq!(rows.iter().map(count).collect::<Vec<_>>(), [2, 1]);
     }
 }

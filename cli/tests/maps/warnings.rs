@@ -1,6 +1,6 @@
 //! Greys that may not mean what they are read as, and the words for them.
 
-use crate::images::{Rule, read_with, rules};
+use crate::rules::{Rule, read_with, rules};
 use crate::support::{Folder, pgm};
 use mean_information_cli::maps::{Mode, Options, Semantics};
 

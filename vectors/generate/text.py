@@ -1,5 +1,6 @@
 """How the vectors are written: hexadecimal floats, outward decimals, one test a line."""
 
+import hashlib
 import json
 import math
 from fractions import Fraction
@@ -21,7 +22,7 @@ def hex_float(x):
 
 
 def decimal(value, digits, up):
-    """A fraction in [0, 1] to so many significant digits, rounded down or up."""
+    """A fraction, not negative, to so many significant digits, rounded down or up."""
     if value == 0:
         return "0"
     exponent = math.floor(mpmath.log10(mpmath.mpf(value.numerator) / value.denominator))
@@ -46,6 +47,12 @@ def neighbours(x, format, n=1):
             y = np.nextafter(y, kind(direction))
             found.append(y)
     return [float(y) for y in found]
+
+
+def label(op, format, kind, args):
+    """The id of a test with lists in its arguments: it ends with a hash of them, so that it can only ever mean one thing."""
+    digest = hashlib.sha256(json.dumps(args).encode()).hexdigest()[:12]
+    return f"{op}/{format}/{kind}-{digest}"
 
 
 def write_file(header, tests):

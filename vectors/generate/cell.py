@@ -13,7 +13,11 @@ import mpmath
 import numpy as np
 
 from exact import DEFINE, FORMATS, enclosure, hardness, rounded
-from text import DIGITS, decimal, hex_float, neighbours, write_file
+import traps
+from enclosures import want_nearest
+from operations import write
+from text import DIGITS, decimal, hex_float, neighbours
+from trap_notes import NOTES
 
 HERE = Path(__file__).parent
 RANDOM = {"f64": 700, "f32": 300}
@@ -24,15 +28,17 @@ FLAGS = {
     "Random": "From a seeded generator, all magnitudes.",
     "Domain": "Outside the domain: the answer is the error `domain`, or NaN from a plain function of floats.",
     "Limit": "The result is exact.",
+    "NearHalf": "p within 1/16 of 1/2, or |l| below 1/4: in information 1 - H cancels; a series in 2p - 1, or in l, does not.",
+    "NearCertain": "p within 2^-10 of 0 or 1: log(1-p) after 1-p is rounded loses the smaller term; log1p(-p) keeps it.",
+    "Certain": "p = 0 or 1: 0 log 0 is 0.",
+    "Subnormal": "The argument or the result is below the normal floats: not flushed to zero, rounded once.",
+    "LargeLogOdds": "|l| above 30: p is 0 or 1 up to its last bits. What passes through a rounded p, or 1 - p, saturates.",
+    "Overflow": "e^|l| overflows: use e^-|l|.",
+    "Infinite": "l infinite: p is 0 or 1, as for all large l.",
+    "Negative": "Negative log-odds: p below 1/2, and its digits are those of e^l.",
 }
-
-OPS = {
-    "entropy": "H(p) = -p log2 p - (1-p) log2 (1-p), in bits",
-    "information": "I(p) = 1 - H(p), in bits",
-    "entropy_from_log_odds": "H(p) in bits for p = 1 / (1 + e^-l)",
-    "information_from_log_odds": "I(p) = 1 - H(p) in bits for p = 1 / (1 + e^-l)",
-    "occupancy_from_log_odds": "p = 1 / (1 + e^-l)",
-}
+SOURCE = "vectors/generate/cell.py: enclosures by Arb (python-flint), which contain mpmath's value of the definition."
+FUNCTIONS = ("entropy", "information", "entropy_from_log_odds", "information_from_log_odds", "occupancy_from_log_odds")
 
 
 def limit(function, x):
@@ -60,17 +66,7 @@ def want(function, format, x):
     value, slack = Fraction(int(mpmath.nint(mpmath.ldexp(value, 2700))), 2**2700), Fraction(1, 2**2600)
     assert bounds[0] - slack <= value <= bounds[1] + slack, (function, x)
 
-    def text(digits):
-        return [decimal(bound, digits, up) for bound, up in zip(bounds, (False, True))]
-
-    def decides(digits):
-        lo, hi = (rounded(Fraction(bound), format) for bound in text(digits))
-        return lo == hi
-
-    digits = DIGITS
-    while not decides(digits):
-        digits += 20
-    return dict(zip(("lo", "hi"), text(digits if digits == DIGITS else digits + 20)))
+    return want_nearest(*bounds, format)
 
 
 def edges(of_odds, format):
@@ -125,8 +121,44 @@ def near_ties(function, format):
     return found[:60]
 
 
-def write(function):
-    of_odds, name = function.endswith("odds"), "l" if function.endswith("odds") else "p"
+def more_flags(of_odds, x, answer, format):
+    """What the numbers show."""
+    if "error" in answer:
+        return
+    precision, lowest = FORMATS[format]
+    normal = Fraction(2) ** (lowest + precision - 1)
+    size = abs(x)
+    if 0 < size < 0.25 if of_odds else 0 < abs(x - 0.5) < 0.0625:
+        yield "NearHalf"
+    if not of_odds and (0 < x < 2.0**-10 or 1 - 2.0**-10 < x < 1):
+        yield "NearCertain"
+    if not of_odds and x in (0, 1):
+        yield "Certain"
+    if 0 < size < normal or 0 < Fraction(answer["hi"]) < normal:
+        yield "Subnormal"
+    if of_odds:
+        if math.isinf(x):
+            yield "Infinite"
+        elif size > 30:
+            yield "LargeLogOdds"
+        if size > {"f64": 709.8, "f32": 88.8}[format]:
+            yield "Overflow"
+        if x < 0:
+            yield "Negative"
+
+
+def known_mistakes(function, x, answer, format):
+    if "error" in answer:
+        moved = function in ("entropy", "information") and not math.isnan(x)
+        return {"ClampedIntoDomain": float(function == "information")} if moved else {}
+    kind, of_odds = function.split("_")[0], function.endswith("odds")
+    result = rounded(Fraction(answer["lo"]), format)
+    return (traps.of_log_odds if of_odds else traps.of_occupancy)(kind, x, format, result)
+
+
+def make(function):
+    of_odds = function.endswith("odds")
+    name = "l" if of_odds else "p"
     tests, seen = [], set()
 
     def add(format, x, flag, answer=None):
@@ -134,10 +166,12 @@ def write(function):
         if key not in seen:
             seen.add(key)
             answer = answer or want(function, format, x)
-            tests.append({"id": key, "format": format, "args": {name: hex_float(x)}, "want": answer, "flags": [flag]})
+            flags = [flag, *more_flags(of_odds, x, answer, format)]
+            test = {"id": key, "format": format, "args": {name: hex_float(x)}, "want": answer, "flags": flags}
+            tests.append(traps.attach(test, known_mistakes(function, x, answer, format)))
 
     for format in FORMATS:
-        rng = np.random.default_rng([20261121, list(OPS).index(function), FORMATS[format][0]])
+        rng = np.random.default_rng([20261121, FUNCTIONS.index(function), FORMATS[format][0]])
         for x in [0.0, -0.0] + ([math.inf, -math.inf] if of_odds else [0.5, 1.0]):
             add(format, x, "Limit")
         domain = [math.nan] if of_odds else [math.nan, -0.25, 1.5, math.inf, -math.inf, neighbours(1, format)[2], -(2.0 ** FORMATS[format][1])]
@@ -149,17 +183,9 @@ def write(function):
             add(format, x, "Edge")
         for x in random_arguments(of_odds, format, rng):
             add(format, x, "Random")
-    write_file({
-        "op": f"cell.{function}",
-        "version": 1,
-        "formula": OPS[function],
-        "tolerance_ulp": 0.5,
-        "verdict": "The float nearest to the exact value, which lies between lo and hi. No enclosure holds a midpoint of two floats.",
-        "source": "vectors/generate/cell.py: enclosures by Arb (python-flint), which contain mpmath's value of the definition.",
-        "flags": FLAGS,
-    }, tests)
+    write(f"cell.{function}", SOURCE, FLAGS, NOTES, tests)
 
 
 if __name__ == "__main__":
-    for function in OPS:
-        write(function)
+    for function in FUNCTIONS:
+        make(function)

@@ -68,8 +68,8 @@ def lists(format, rng):
         yield "small", draw.near_zero(n, format, rng), "Random"
         yield "large", draw.near_one(n, format, rng), "Random"
     # One cell of a bit, then terms each below half an ulp of the sum, of entropy and of information.
-    yield "small-beside-large", [0.5] + [2.0**-precision / precision / 8] * 1200, "SmallBesideLarge"
-    yield "small-beside-large", [0.0] + [0.5 + 2.0 ** -((precision + 4) // 2)] * 1200, "SmallBesideLarge"
+    yield "small-beside-large", [0.5] + [2.0**-precision / precision / 8] * 600, "SmallBesideLarge"
+    yield "small-beside-large", [0.0] + [0.5 + 2.0 ** -((precision + 4) // 2)] * 600, "SmallBesideLarge"
     yield "small-beside-large", [0.25] * 2 + draw.near_half(30, format, rng, precision // 2 + 2), "SmallBesideLarge"
     count = {"f64": 24, "f32": 24}[format]
     for _ in range(count):
@@ -82,15 +82,15 @@ def lists(format, rng):
     yield "order", shuffled * 2, "Order"
     yield "order", shuffled[::-1], "Order"
     # Few bits, so that the files stay small.
-    for n in (1000, 3000):
+    for n in {"f64": (1000,), "f32": (4000,)}[format]:
         yield "long", draw.short(n, rng), "Random"
     yield "long", [round(256 * p) / 256 for p in draw.mapped(1000, format, rng)], "Mapped"
     # Equal cells: the errors of a naive sum have one sign.
-    yield "long", [0.125] * 2000, "Listed"
-    yield "long", [0.625] * 1500 + [0.5] * 500, "Listed"
-    # 2000 bits, then terms each below half an ulp of that in single precision.
-    yield "small-beside-large", [0.5] * 2000 + [1.25 * 2.0**-19] * 2000, "SmallBesideLarge"
-    yield "small-beside-large", [0.0] * 2000 + [0.5 + 2.0**-8] * 2000, "SmallBesideLarge"
+    yield "long", [0.125] * 1500, "Listed"
+    yield "long", [0.625] * 1000 + [0.5] * 100, "Listed"
+    # 1000 bits, then terms each below half an ulp of that in single precision.
+    yield "small-beside-large", [0.5] * 1000 + [1.5 * 2.0**-20] * 1000, "SmallBesideLarge"
+    yield "small-beside-large", [0.0] * 1000 + [0.5 + 0.75 * 2.0**-8] * 1000, "SmallBesideLarge"
     for bad in draw.BAD:
         yield "domain", [bad], "Domain"
         yield "domain", [0.25, 0.5, bad, 0.875], "Domain"
@@ -135,6 +135,8 @@ def main():
                     flags.append("Subnormal")
             answers = wants(cells) if flag != "Domain" else {}
             for op, found in tests.items():
+                if op == "map.observed" and len(cells) > 1100:
+                    continue  # a count has no digits to lose
                 test = {"id": label(op, format, kind, args), "format": format, "args": args, "flags": flags}
                 test["want"] = answers.get(op, {"error": "domain"})
                 wrong = traps.of_map(op, [Fraction(p) for p in cells]) if answers else traps.of_bad_map(op, cells)

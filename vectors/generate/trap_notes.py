@@ -129,8 +129,5 @@ NOTES = {
     "IntegratedTwice": "takes the side before z for both",
     "SymmetricEdges": "integrates from z - sigma sqrt(ln 4) to z + sigma sqrt(ln 4): free space is missing",
     "MissedPeak": "misses the peak at z: all is 0 or 1, and the limit 1",
-    "EntropyForInformation": "gives the mean entropy",
     "ConstantForLargeAlpha": "takes the constant for large alpha where alpha is small",
-    "FirstOrderArea": "leaves out the term in 1 / (alpha + b)^2",
-    "SigmaOverRange": "takes alpha = sigma / range",
 }

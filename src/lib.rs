@@ -58,6 +58,7 @@
 //!
 //! # Features
 //! * `std` (default): passes on the feature of the same name to `num-traits`. Without it the crate is `no_std` + `alloc`.
+//! * `vectors`: arguments with their exact results for every operation, as text, to check an implementation against.
 //! * `serde`: tallies can be written and read, so that parts of a map measured on several machines merge to the same bits.
 //!
 //! The one dependency is `num-traits`, for the vocabulary of generic float code.
@@ -80,6 +81,9 @@ mod rounded;
 pub mod scalar;
 pub mod sensor;
 pub mod tally;
+
+#[cfg(feature = "vectors")]
+pub mod vectors;
 
 pub use error::Error;
 pub use real::Real;

@@ -82,7 +82,7 @@ pub const OPERATIONS: &[Operation] = &[
         "map.entropy",
         CELLS,
         OCCUPANCIES,
-        "sum of H(p) over all cells, in bits; 0 of none",
+        "sum of H(p) over all cells, in bits; an unknown cell, p = 1/2, has 1 bit; 0 without cells",
         "Tally::entropy",
     )),
     summed(rounded(
@@ -90,7 +90,7 @@ pub const OPERATIONS: &[Operation] = &[
         "map.information",
         CELLS,
         OCCUPANCIES,
-        "sum of I(p) over all cells, in bits; 0 of none",
+        "sum of I(p) = 1 - H(p) over all cells, in bits; 0 without cells",
         "Tally::information",
     )),
     summed(rounded(
@@ -98,7 +98,7 @@ pub const OPERATIONS: &[Operation] = &[
         "map.mean_information",
         CELLS,
         OCCUPANCIES,
-        "sum of I(p) over the number of cells with p != 1/2; 0 if there is none",
+        "sum of I(p) over all cells / number of cells with p != 1/2, in bits; 0 if there is none",
         "Tally::mean_information",
     )),
     Operation {
@@ -118,7 +118,7 @@ pub const OPERATIONS: &[Operation] = &[
         "sensor.occupancy",
         &[float("rho"), float("range"), float("sigma")],
         "rho any number, infinities too; range, sigma positive and finite",
-        "p = e^(-(rho - range)^2 / (2 sigma^2)) for rho <= range + sigma sqrt(ln 4), 1/2 beyond",
+        "p = exp(-((rho - range) / (sigma sqrt 2))^2) for rho <= range + sigma sqrt(ln 4), 1/2 beyond",
         "GaussianSensor::occupancy",
     ),
     summed(rounded(
@@ -126,7 +126,7 @@ pub const OPERATIONS: &[Operation] = &[
         "grid.polar.mean_information",
         &[float("range"), float("sigma"), float("resolution")],
         "range, sigma, resolution positive and finite",
-        "map.mean_information of sensor.occupancy at rho = (k + 1/2) resolution, k = 0, 1, ..",
+        "mean of I(p(rho)) over rho = (k + 1/2) resolution, k = 0, 1, ..., with p != 1/2; p by sensor.occupancy; 0 if there is none",
         "PolarRoom::tally",
     )),
     summed(rounded(
@@ -134,7 +134,7 @@ pub const OPERATIONS: &[Operation] = &[
         "grid.cartesian.mean_information",
         &[float("range"), float("sigma"), float("resolution"), float("offset_x"), float("offset_y")],
         "range, sigma, resolution positive and finite; offsets finite",
-        "map.mean_information of sensor.occupancy at rho = resolution sqrt((i + offset_x)^2 + (j + offset_y)^2), i, j integers",
+        "mean of I(p(rho)) over rho = resolution sqrt((i + offset_x)^2 + (j + offset_y)^2), i and j integers, with p != 1/2; p by sensor.occupancy; 0 if there is none",
         "CartesianRoom::tally",
     )),
     rounded(
@@ -142,7 +142,7 @@ pub const OPERATIONS: &[Operation] = &[
         "fuse.log_odds",
         CELLS,
         "each cell from 0 to 1; not 0 and 1 together",
-        "p = prod p_i / (prod p_i + prod (1 - p_i)): log-odds add; 1/2 of none",
+        "p = prod p_i / (prod p_i + prod (1 - p_i)): log-odds add; 1/2 without observations",
         "build::fuse",
     ),
     summed(rounded(
@@ -153,7 +153,7 @@ pub const OPERATIONS: &[Operation] = &[
             Argument { name: "particles", shape: Shape::Rows },
         ],
         "weights not negative, finite, not all 0; one particle for each, all of one length; cells from 0 to 1",
-        "map.mean_information of p = sum w_i p_i / sum w_i",
+        "mean information of the map p = sum w_i p_i / sum w_i, exactly; a cell is observed if p != 1/2, exactly",
         "ExpectedMap::tally",
     )),
     summed(rounded(

@@ -5,6 +5,8 @@ use mean_information::Real;
 use mean_information::operations::{Answer, OPERATIONS, Operation, Outcome, Refusal, Shape, Value, find};
 use serde_json::{Value as Json, json};
 use std::collections::HashSet;
+use std::fs;
+use std::path::Path;
 
 fn shape_name(shape: Shape) -> &'static str {
     match shape {
@@ -66,6 +68,16 @@ fn the_file_for_other_languages_has_the_list() {
         .collect();
     let file: Json = serde_json::from_str(include_str!("../../vectors/v1/operations.json")).expect("JSON");
     assert_eq!(file, Json::from(list));
+}
+
+#[test]
+fn no_file_of_vectors_is_missing_or_forgotten() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("vectors/v1");
+    let files = fs::read_dir(folder).expect("the vectors").map(|entry| entry.expect("an entry").file_name());
+    let files: HashSet<_> =
+        files.filter_map(|name| name.into_string().ok()?.strip_suffix(".json").map(str::to_owned)).collect();
+    let names = OPERATIONS.iter().map(|operation| operation.name.to_owned()).chain(["operations".to_owned()]);
+    assert_eq!(files, names.collect());
 }
 
 /// A function that promises less than a port must keep, or nothing, cannot be its reference.

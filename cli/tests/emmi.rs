@@ -219,6 +219,20 @@ fn the_command_agrees_with_the_formula() {
 }
 
 #[test]
+fn the_readme_shows_what_is_printed() {
+    let folder = Folder::new();
+    let particles = doubles(&[0.1, 0.9, 0.5, 0.1, 0.1, 0.9]);
+    fs::write(folder.path("particles.npy"), npy("<f8", false, &[2, 1, 3], &particles)).unwrap();
+    fs::write(folder.path("weights.npy"), npy("<f8", false, &[2], &doubles(&[0.75, 0.25]))).unwrap();
+    let arguments = ["emmi", "--particles", "particles.npy", "--weights", "weights.npy"];
+    let output = meaninfo().current_dir(folder.path("")).args(arguments).output().unwrap();
+    let shown = format!("`meaninfo {}` averages", arguments.join(" "));
+    let printed = format!("```text\n{}```\n", text(&output.stdout));
+    let readme = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../README.md")).unwrap();
+    assert!(readme.contains(&shown) && readme.contains(&printed), "README.md lacks\n{printed}");
+}
+
+#[test]
 fn csv_and_table_say_the_same_as_json() {
     let folder = Folder::new();
     let arguments = small(&folder, &WEIGHTS);

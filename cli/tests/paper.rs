@@ -57,6 +57,7 @@ fn the_report_is_reproduced() {
     assert!(measured("respectively well aligned").ends_with(moved));
     assert!(measured("closing a large loop").contains("in 12 of 13 runs"));
     assert!(measured("better suited").contains("in 13 of 13 runs"));
+    assert!(measured("better suited").contains("more in EMMI in 11."));
 
     // A page that needs nothing else, with each figure in it and described.
     let page = String::from_utf8(read(folder.path("paper").join("index.html"))).unwrap();

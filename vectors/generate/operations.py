@@ -21,8 +21,8 @@ def named(notes, used):
     return {name: note for name, note in notes.items() if name in used}
 
 
-def thin(tests, most=50):
-    """Of tests beyond so many with one trap in one format, evenly many lose it: a cause shows in 50 tests as in 1000."""
+def thin(tests, most=40):
+    """Of tests beyond so many with one trap in one format, evenly many lose it: a cause shows in 40 tests as in 1000."""
     holders = {}
     for test in tests:
         for name in test.get("traps", {}):

@@ -77,11 +77,11 @@ def squares(h, reach, x, y, distance=math.hypot, window=math.inf):
     return list(found.items())
 
 
-def quadrant(h, reach, x, y, axes):
-    """Cells of i, j >= 0; those on the axes once or as often as the four quadrants hold them."""
+def quadrant(h, reach, x, y):
+    """The distances of the cells of i, j >= 0."""
     x, y = x % 1, y % 1
     n = range(int(reach / h) + 2)
-    return [(rho, 1) for i, j in product(n, n) if (rho := math.hypot((i + x) * h, (j + y) * h)) <= reach and (axes or (i, j) != (0, 0))]
+    return [(rho, 1) for i, j in product(n, n) if (rho := math.hypot((i + x) * h, (j + y) * h)) <= reach]
 
 
 def known_mistakes(kind, z, s, h, x, y, limits):
@@ -127,7 +127,7 @@ def known_mistakes(kind, z, s, h, x, y, limits):
     found["OffsetIgnored"] = mean(occupancies(squares(h, reach, 0, 0)))
     found["OffsetHalf"] = mean(occupancies(squares(h, reach, 0.5, 0.5)))
     found["OffsetInMetres"] = mean(occupancies(squares(h, reach, x / h, y / h)))
-    found["OneQuadrant"] = mean(occupancies(quadrant(h, reach, x, y, True)))
+    found["OneQuadrant"] = mean(occupancies(quadrant(h, reach, x, y)))
     found["Manhattan"] = mean(occupancies(squares(h, reach, x, y, lambda a, b: abs(a) + abs(b))))
     found["Chebyshev"] = mean(occupancies(squares(h, reach, x, y, lambda a, b: max(abs(a), abs(b)))))
     found["SquareOfDistance"] = mean(occupancies([(rho * rho, n) for rho, n in squares(h, max(reach, math.sqrt(reach)), x, y)]))

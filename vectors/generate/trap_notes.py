@@ -118,7 +118,6 @@ NOTES = {
     "OffsetHalf": "puts the sensor on a corner of the cells whatever the offsets",
     "OffsetInMetres": "takes offsets in metres: they are in cells",
     "OneQuadrant": "takes the quadrant of i, j >= 0 for all",
-    "AxesFourfold": "takes the quadrant of i, j >= 0 four times: cells on the axes count too often",
     "Manhattan": "takes |x| + |y| for the distance",
     "Chebyshev": "takes the larger of |x| and |y| for the distance",
     "SquareOfDistance": "leaves out the square root of the distance",

@@ -1,6 +1,6 @@
 """Known mistakes: the value that each gives for a test, so that an answer equal to it names its cause.
 
-Every trap has its note in trap_notes.py. Values are of 24 bits, as answers are compared to 20; a value that is too close to a right one is
+Every trap has its note in trap_notes.py. Values are of 23 or 24 bits, as answers are compared to 20; a value that is too close to a right one is
 left out, and so is one below the normal floats. Those of rooms and limits are in room_traps.py and limit_traps.py.
 """
 
@@ -36,7 +36,7 @@ def apart(value, want, scale=APART):
 
 
 def cut(value, format):
-    """To 24 bits: a float that either format holds; None if it is not among its normal numbers."""
+    """To 23 or 24 bits: a float that either format holds; None if it is not among its normal numbers."""
     if isinstance(value, float) and not math.isfinite(value):
         return value
     if isinstance(value, arb):
@@ -48,7 +48,7 @@ def cut(value, format):
         value = Fraction(value)
     if not value:
         return 0.0 if value == 0 else None
-    shift = 24 - (abs(value.numerator).bit_length() - value.denominator.bit_length())
+    shift = 23 - (abs(value.numerator).bit_length() - value.denominator.bit_length())
     value = Fraction(round(value * Fraction(2) ** shift)) / Fraction(2) ** shift
     precision, lowest = FORMATS[format]
     if not Fraction(2) ** (lowest + precision - 1) <= abs(value) < Fraction(2) ** (2 - precision - lowest):

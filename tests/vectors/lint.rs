@@ -40,7 +40,8 @@ fn is_canonical<T: Real>(text: &str) -> bool {
     if text == "nan" || magnitude == "inf" {
         return true;
     }
-    let Some((significand, exponent)) = magnitude.strip_prefix("0x").and_then(|rest| rest.split_once('p')) else {
+    let Some((significand, exponent)) = magnitude.strip_prefix("0x").and_then(|rest| rest.split_once('p'))
+    else {
         return false;
     };
     let (whole, fraction) = significand.split_once('.').unwrap_or((significand, ""));
@@ -79,8 +80,11 @@ fn every_float_is_spelled_in_the_one_way_and_of_its_format() {
     for operation in OPERATIONS {
         for test in tests(&vectors(operation)) {
             for text in floats(&test["args"]).into_iter().chain(floats(&test["traps"])) {
-                let canonical =
-                    if test["format"] == "f32" { is_canonical::<f32>(text) } else { is_canonical::<f64>(text) };
+                let canonical = if test["format"] == "f32" {
+                    is_canonical::<f32>(text)
+                } else {
+                    is_canonical::<f64>(text)
+                };
                 assert!(canonical, "{}: {}: {text}", operation.name, test["id"]);
             }
         }
@@ -112,7 +116,8 @@ fn the_folder_holds_a_file_of_each_operation_and_nothing_else() {
     let of_operations = OPERATIONS.iter().map(|operation| format!("{}.json", operation.name));
     let expected: BTreeSet<_> = of_operations.chain(["operations.json".to_owned()]).collect();
     let sums = fs::read_to_string(format!("{FOLDER}/SHA256SUMS")).expect("the checksums");
-    let summed: BTreeSet<_> = sums.lines().filter_map(|line| Some(line.split_once("  ")?.1.to_owned())).collect();
+    let summed: BTreeSet<_> =
+        sums.lines().filter_map(|line| Some(line.split_once("  ")?.1.to_owned())).collect();
     assert_eq!(summed, expected);
     let found = fs::read_dir(FOLDER).expect("the folder").map(|entry| entry.expect("an entry").file_name());
     let found: BTreeSet<_> = found.map(|name| name.into_string().expect("a name")).collect();

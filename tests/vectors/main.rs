@@ -2,6 +2,7 @@
 
 mod exact;
 mod judge;
+mod lint;
 
 use exact::float;
 use mean_information::Real;

@@ -68,7 +68,7 @@ def lists(format, rng):
         yield "small", draw.near_zero(n, format, rng), "Random"
         yield "large", draw.near_one(n, format, rng), "Random"
     # One cell of a bit, then terms each below half an ulp of the sum, of entropy and of information.
-    yield "small-beside-large", [0.5] + [2.0**-precision / precision / 8] * 600, "SmallBesideLarge"
+    yield "small-beside-large", [0.5] + [2.0 ** -(precision + 8)] * 600, "SmallBesideLarge"
     yield "small-beside-large", [0.0] + [0.5 + 2.0 ** -((precision + 4) // 2)] * 600, "SmallBesideLarge"
     yield "small-beside-large", [0.25] * 2 + draw.near_half(30, format, rng, precision // 2 + 2), "SmallBesideLarge"
     count = {"f64": 24, "f32": 24}[format]

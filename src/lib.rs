@@ -123,6 +123,8 @@ pub mod book {
     pub mod operations {}
     #[doc = include_str!("../docs/guarantees.md")]
     pub mod guarantees {}
+    #[doc = include_str!("../docs/porting.md")]
+    pub mod porting {}
 }
 
 /// The examples of the README.

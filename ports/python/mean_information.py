@@ -68,7 +68,8 @@ def correctly_rounded(formula, fmt, lost=8, digits=40):
             low, high = nearest(value - error, fmt), nearest(value + error, fmt)
         if low == high:
             return low
-        digits = max(2 * digits, 30 - value.adjusted() if value else 0)
+        leading = min(-value.adjusted(), 330) if value else 0  # zeros; 330 are below all floats
+        digits = max(2 * digits, leading + 30)
 
 
 @lru_cache(maxsize=None)

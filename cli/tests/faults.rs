@@ -1,0 +1,152 @@
+//! The check, checked: mistakes are planted in the Python port, one at a time, and `meaninfo check` must name each.
+//!
+//! `faults/python.txt` lists mistakes of all kinds, `faults/mrpt.txt` the rules of MRPT. A mistake is named if the first
+//! cause of the operation is one of those that the list expects.
+
+mod common;
+
+use common::*;
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+
+const PORT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../ports/python/mean_information.py");
+const LISTS: [&str; 2] = [include_str!("faults/python.txt"), include_str!("faults/mrpt.txt")];
+/// Ports that run at the same time.
+const THREADS: usize = 2;
+
+/// A mistake and what it must be called.
+#[derive(Debug, Default)]
+struct Fault<'a> {
+    name: &'a str,
+    ops: &'a str,
+    causes: Vec<&'a str>,
+    /// Lines to take out, and those to put in their place.
+    places: Vec<(Vec<&'a str>, Vec<&'a str>)>,
+}
+
+fn faults() -> Vec<Fault<'static>> {
+    let mut faults: Vec<Fault> = Vec::new();
+    let mut putting = true;
+    for line in LISTS.iter().flat_map(|list| list.lines()) {
+        match line.split_at_checked(1) {
+            Some(("@", header)) => {
+                let fields: Vec<_> = header.split(" : ").map(str::trim).collect();
+                let [name, ops, causes] = fields[..] else { panic!("{line}") };
+                let causes = causes.split(' ').collect();
+                faults.push(Fault { name, ops, causes, places: Vec::new() });
+                putting = true;
+            }
+            Some(("-", text)) => {
+                let places = &mut faults.last_mut().unwrap().places;
+                if putting {
+                    places.push((Vec::new(), Vec::new()));
+                }
+                places.last_mut().unwrap().0.push(text);
+                putting = false;
+            }
+            Some(("+", text)) => {
+                faults.last_mut().unwrap().places.last_mut().unwrap().1.push(text);
+                putting = true;
+            }
+            Some(("#", _)) | None => {}
+            _ => panic!("neither a header nor a line of a place: {line}"),
+        }
+    }
+    faults
+}
+
+impl Fault<'_> {
+    fn planted(&self, port: &str) -> String {
+        self.places.iter().fold(port.to_owned(), |port, (old, new)| {
+            let old = old.join("\n");
+            assert_eq!(port.matches(&old).count(), 1, "{}: must be there once:\n{old}", self.name);
+            port.replace(&old, &new.join("\n"))
+        })
+    }
+
+    /// What is wrong with the verdict on the port with this fault.
+    fn unnamed(&self, file: &Path) -> Option<String> {
+        let (status, verdict) = check(&["--ops", self.ops], file);
+        let causes = |operation: &Value| -> Vec<String> {
+            let causes = operation["causes"].as_array().unwrap();
+            causes.iter().map(|cause| cause["name"].as_str().unwrap().to_owned()).collect()
+        };
+        let found: Vec<_> =
+            verdict["operations"].as_array().unwrap().iter().flat_map(causes).take(4).collect();
+        let is_named = found.first().is_some_and(|first| self.causes.contains(&first.as_str()));
+        (status != 1 || !is_named).then(|| {
+            format!(
+                "{} ({}): wanted {:?}, found {found:?}, exit status {status}",
+                self.name, self.ops, self.causes
+            )
+        })
+    }
+}
+
+/// The exit status of `meaninfo check` on a Python file, and its verdict.
+fn check(options: &[&str], file: &Path) -> (i32, Value) {
+    let mut command = meaninfo();
+    command.args(["check", "--format", "json"]).args(options).args(["--", "python3"]).arg(file);
+    let output = command.output().unwrap();
+    let verdict = serde_json::from_slice(&output.stdout);
+    let verdict =
+        verdict.unwrap_or_else(|error| panic!("{}: {error}: {}", file.display(), text(&output.stderr)));
+    (output.status.code().unwrap(), verdict)
+}
+
+fn has_numpy() -> bool {
+    let found = Command::new("python3").args(["-c", "import numpy"]).output();
+    let has = found.is_ok_and(|output| output.status.success());
+    if !has {
+        eprintln!("skipped: there is no python3 with NumPy");
+    }
+    has
+}
+
+#[test]
+fn the_port_without_faults_passes() {
+    if has_numpy() {
+        let (status, verdict) = check(&[], Path::new(PORT));
+        assert_eq!(
+            (status, &verdict["failed"], &verdict["undeclared"]),
+            (0, &0.into(), &Value::Array(vec![]))
+        );
+    }
+}
+
+#[test]
+fn every_planted_fault_is_named() {
+    let faults = faults();
+    assert!(faults.len() > 100);
+    if !has_numpy() {
+        return;
+    }
+    let port = fs::read_to_string(PORT).unwrap();
+    let folder = Folder::new();
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let mut unnamed = Vec::new();
+        loop {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            let Some(fault) = faults.get(index) else { return unnamed };
+            let file = folder.path(&format!("fault_{index}.py"));
+            fs::write(&file, fault.planted(&port)).unwrap();
+            unnamed.extend(fault.unnamed(&file));
+        }
+    };
+    let unnamed: Vec<String> = thread::scope(|scope| {
+        let threads: Vec<_> = (0..THREADS).map(|_| scope.spawn(work)).collect();
+        threads.into_iter().flat_map(|thread| thread.join().unwrap()).collect()
+    });
+    assert!(
+        unnamed.is_empty(),
+        "{} of {} faults are not named:\n{}",
+        unnamed.len(),
+        faults.len(),
+        unnamed.join("\n")
+    );
+}

@@ -7,6 +7,7 @@ mod common;
 
 use common::*;
 use serde_json::Value;
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -15,6 +16,8 @@ use std::thread;
 
 const PORT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../ports/python/mean_information.py");
 const LISTS: [&str; 2] = [include_str!("faults/python.txt"), include_str!("faults/mrpt.txt")];
+const VECTORS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../vectors/v1");
+const CHAPTER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/porting.md");
 /// Ports that run at the same time.
 const THREADS: usize = 2;
 
@@ -149,4 +152,26 @@ fn every_planted_fault_is_named() {
         faults.len(),
         unnamed.join("\n")
     );
+}
+
+/// Names of traps and flags are words of two parts or more: `DividedByAll`.
+#[test]
+fn the_chapter_on_ports_uses_names_that_the_check_knows() {
+    let mut known = BTreeSet::new();
+    for entry in fs::read_dir(VECTORS).unwrap() {
+        let vectors: Value = serde_json::from_slice(&fs::read(entry.unwrap().path()).unwrap()).unwrap_or_default();
+        let names = ["traps", "flags"].into_iter().filter_map(|key| vectors[key].as_object());
+        known.extend(names.flat_map(|names| names.keys().cloned()));
+    }
+    let chapter = fs::read_to_string(CHAPTER).unwrap();
+    let code = chapter.split('`').skip(1).step_by(2);
+    let is_name = |word: &&str| {
+        word.starts_with(|c: char| c.is_ascii_uppercase())
+            && word.chars().all(|c| c.is_ascii_alphanumeric())
+            && word.chars().filter(char::is_ascii_uppercase).count() > 1
+            && word.contains(|c: char| c.is_ascii_lowercase())
+    };
+    let used: BTreeSet<_> = code.filter(is_name).collect();
+    let unknown: Vec<_> = used.iter().filter(|name| !known.contains(**name)).collect();
+    assert!(used.len() > 20 && unknown.is_empty(), "{unknown:?} of {used:?}");
 }

@@ -12,6 +12,17 @@ pub enum Failure {
     File(Problem),
     /// Standard output cannot be written, for another reason than a reader who closed it.
     StandardOutput(String),
+    /// Standard input or output failed while they were served.
+    Streams(String),
+    /// The vectors this program was built with make no sense.
+    Vectors(String),
+    /// A port cannot be talked to.
+    Port {
+        /// How it is started.
+        command: String,
+        /// What is wrong with it.
+        message: String,
+    },
     /// A picture cannot be drawn.
     Drawing(String),
 }
@@ -22,6 +33,9 @@ impl fmt::Display for Failure {
             Self::Usage(message) => write!(f, "{}; try 'meaninfo --help'", one_line(message)),
             Self::File(problem) => problem.fmt(f),
             Self::StandardOutput(message) => write!(f, "standard output: {}", one_line(message)),
+            Self::Streams(message) => write!(f, "standard input or output: {}", one_line(message)),
+            Self::Vectors(message) => write!(f, "the vectors built in: {}", one_line(message)),
+            Self::Port { command, message } => write!(f, "{}: {}", one_line(command), one_line(message)),
             Self::Drawing(message) => write!(f, "the picture cannot be drawn: {}", one_line(message)),
         }
     }

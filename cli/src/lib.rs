@@ -5,11 +5,14 @@
 //! | module | holds |
 //! |---|---|
 //! | [`hex_float`] | hexadecimal floats |
+//! | [`protocol`] | the messages between `meaninfo check` and a port |
+//! | [`port`] | the library as a port |
 //! | [`maps`] | map files and how to read them |
 //! | `progress` | a bar for long work |
 //! | `cell_cache` | cells by their stored value |
 //! | [`Failure`] | why a command was not done |
 //! | [`output`] | numbers, tables, JSON and CSV, and where they go |
+//! | [`check`] | ports against the vectors |
 //! | [`measures`] | what is measured of a map |
 //! | [`simulation`] | rooms, a robot in them, and the map it makes |
 //! | [`sweep`] | the measures against the size of cells |
@@ -19,6 +22,7 @@
 //! | [`commands`] | the arguments, and what they ask for |
 
 mod cell_cache;
+pub mod check;
 pub mod commands;
 pub mod convergence;
 mod failure;
@@ -28,7 +32,9 @@ pub mod measures;
 pub mod output;
 pub mod paper;
 pub mod plots;
+pub mod port;
 mod progress;
+pub mod protocol;
 pub mod simulation;
 pub mod sweep;
 

@@ -159,7 +159,8 @@ fn every_planted_fault_is_named() {
 fn the_chapter_on_ports_uses_names_that_the_check_knows() {
     let mut known = BTreeSet::new();
     for entry in fs::read_dir(VECTORS).unwrap() {
-        let vectors: Value = serde_json::from_slice(&fs::read(entry.unwrap().path()).unwrap()).unwrap_or_default();
+        let vectors: Value =
+            serde_json::from_slice(&fs::read(entry.unwrap().path()).unwrap()).unwrap_or_default();
         let names = ["traps", "flags"].into_iter().filter_map(|key| vectors[key].as_object());
         known.extend(names.flat_map(|names| names.keys().cloned()));
     }

@@ -1,11 +1,13 @@
 //! The arguments and commands of `meaninfo`, one command per file. Each computes everything before it writes anything.
 
+mod check;
 mod converge;
 mod emmi;
 mod limit;
 mod map;
 mod metres;
 mod paper;
+mod port;
 mod simulate;
 mod sweep;
 
@@ -42,6 +44,10 @@ pub enum Command {
     Simulate(simulate::Arguments),
     /// Everything in the report, computed again: its five figures, its claims as a table, and a page with both.
     Paper(paper::Arguments),
+    /// The library as a port: it serves the port protocol on standard input and output.
+    Port(port::Arguments),
+    /// Runs an implementation in any language, a port, against the vectors: is it right, and if not, where and why.
+    Check(Box<check::Arguments>),
 }
 
 impl Command {
@@ -58,6 +64,8 @@ impl Command {
             Self::Emmi(arguments) => arguments.run(),
             Self::Simulate(arguments) => arguments.run(),
             Self::Paper(arguments) => arguments.run(),
+            Self::Port(arguments) => arguments.run(),
+            Self::Check(arguments) => arguments.run(),
         }
     }
 }

@@ -11,8 +11,8 @@ pub use files::Files;
 pub use number::Number;
 pub(crate) use number::{decimal_exponent, short};
 pub use record::{Record, Value};
-pub use table::{table, text_table, with_notes, wrapped};
-pub use writing::Writing;
+pub use table::{folded, table, text_table, with_notes, wrapped};
+pub use writing::{Writing, write_text};
 
 use clap::ValueEnum;
 

@@ -54,6 +54,23 @@ pub fn wrapped(name: &str) -> String {
     lines
 }
 
+/// The text in lines of about so many characters.
+pub fn folded(text: &str, width: usize) -> String {
+    let mut lines = String::new();
+    let mut length = 0;
+    for word in text.split(' ') {
+        if length > 0 && length + word.chars().count() >= width {
+            lines.push('\n');
+            length = 0;
+        } else if length > 0 {
+            lines.push(' ');
+        }
+        lines.push_str(word);
+        length += word.chars().count() + 1;
+    }
+    lines
+}
+
 /// The table with what is to be said of each map below it, each in a line.
 pub fn with_notes<'a>(table: String, notes: impl IntoIterator<Item = (&'a str, &'a str)>) -> String {
     notes.into_iter().fold(table, |text, (map, note)| text + &one_line(&format!("{map}: {note}")) + "\n")
@@ -72,5 +89,12 @@ mod tests {
         assert_eq!(wrapped(long), lines);
         assert_eq!(wrapped(""), "");
         assert_eq!(wrapped("a\nb\u{1b}[2J.yaml"), "a\\nb\\u{1b}[2J.yaml");
+    }
+
+    #[test]
+    fn text_is_folded_between_words() {
+        assert_eq!(folded("one two three four", 9), "one two\nthree\nfour");
+        assert_eq!(folded("", 9), "");
+        assert_eq!(folded("incomprehensibilities", 9), "incomprehensibilities");
     }
 }

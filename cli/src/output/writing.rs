@@ -3,7 +3,7 @@
 use super::{Files, Format, Report, standard_output};
 use crate::failure::Failure;
 use clap::Args;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Where the result goes, and in what form.
 #[derive(Args, Clone, Debug)]
@@ -24,18 +24,25 @@ impl Writing {
     /// # Errors
     /// A file that cannot be written or is an input; standard output that cannot be written. A reader who closed
     /// standard output early is no error.
-    pub fn write(&self, report: &impl Report, mut files: Files) -> Result<(), Failure> {
-        let text = report.text(self.format);
-        match &self.output {
-            // Renamed into its place, the result would be lost to whoever holds standard output.
-            Some(path) if !standard_output::is(path) => {
-                files.add(path, text.into_bytes());
-                files.write()
-            }
-            _ => {
-                files.write()?;
-                standard_output::print(&text)
-            }
+    pub fn write(&self, report: &impl Report, files: Files) -> Result<(), Failure> {
+        write_text(&report.text(self.format), self.output.as_deref(), files)
+    }
+}
+
+/// Writes a result to a file or to standard output, after the other `files`.
+///
+/// # Errors
+/// Those of [`Writing::write`].
+pub fn write_text(text: &str, output: Option<&Path>, mut files: Files) -> Result<(), Failure> {
+    match output {
+        // Renamed into its place, the result would be lost to whoever holds standard output.
+        Some(path) if !standard_output::is(path) => {
+            files.add(path, text.as_bytes().to_vec());
+            files.write()
+        }
+        _ => {
+            files.write()?;
+            standard_output::print(text)
         }
     }
 }

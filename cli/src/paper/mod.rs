@@ -11,7 +11,7 @@ mod resolution;
 mod sensor;
 
 use crate::failure::Failure;
-use crate::output::{Record, Report, Value, text_table};
+use crate::output::{Record, Report, Value, folded, text_table};
 use crate::plots::Sheet;
 use crate::progress::Progress;
 use std::panic::resume_unwind;
@@ -197,23 +197,6 @@ impl Report for Paper {
     }
 }
 
-/// The text in lines of about so many characters.
-fn folded(text: &str, width: usize) -> String {
-    let mut lines = String::new();
-    let mut length = 0;
-    for word in text.split(' ') {
-        if length > 0 && length + word.chars().count() >= width {
-            lines.push('\n');
-            length = 0;
-        } else if length > 0 {
-            lines.push(' ');
-        }
-        lines.push_str(word);
-        length += word.chars().count() + 1;
-    }
-    lines
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -252,12 +235,5 @@ mod tests {
             let paper = Paper { figures: Vec::new(), claims: vec![claim] };
             assert_eq!(paper.holds(), verdict != Verdict::Fail);
         }
-    }
-
-    #[test]
-    fn text_is_folded_between_words() {
-        assert_eq!(folded("one two three four", 9), "one two\nthree\nfour");
-        assert_eq!(folded("", 9), "");
-        assert_eq!(folded("incomprehensibilities", 9), "incomprehensibilities");
     }
 }

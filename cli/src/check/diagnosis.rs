@@ -1,0 +1,225 @@
+//! What the failures of an operation have in common: causes, the most likely one first.
+//!
+//! A cause explains some failures; it is the likelier the more of them it explains, and the fewer tests there are on which
+//! it should have shown but did not. Its score is, with `P = explained / tests on which it should show` and
+//! `R = explained / failures`,
+//!
+//! * `P (1 + R) / 2` for a trap: where a known mistake's value is answered wherever it is known, the mistake is there, though
+//!   others may be there as well. Not every test has every trap it could have: a trap that as many tests of a format have as
+//!   have any explains the share `P` of that format's other failures, too;
+//! * `2 P R / (P + R)`, times a weight below 1, for anything else.
+
+use super::facts::facts;
+use super::judge::{Answered, Judged};
+use super::vectors::{Test, Trap, Vectors};
+use super::{Verdict, Wrong};
+use crate::hex_float;
+use mean_information::Real;
+use std::collections::{HashMap, HashSet};
+
+/// An answer is that of a trap if it is as near to it as this, relatively.
+const TRAP_WIDTH: f64 = f64::EPSILON * 4_294_967_296.0; // 2^-20
+/// A flag says something if its tests fail so many times as often as those without it.
+const LIFT: usize = 2;
+/// Where failures are says less than what they are.
+const FLAG_WEIGHT: f64 = 0.7;
+/// After a trap that explains so many of the failures no other cause is needed.
+const WHOLE: f64 = 0.9;
+
+/// What some failures have in common.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cause {
+    /// What tells it.
+    pub kind: Kind,
+    /// Its name among the flags or traps, or of the fact.
+    pub name: String,
+    /// What is wrong, or what the tests are about.
+    pub note: String,
+    /// How many failures it explains.
+    pub explained: usize,
+    /// On how many answered tests it should show.
+    pub tests: usize,
+    /// Of a flag: how many of the tests without it failed, and how many there are.
+    pub elsewhere: Option<(usize, usize)>,
+    /// How likely it is, from 0 to 1.
+    pub score: f64,
+    /// Whether likelier causes explain all that it explains.
+    pub redundant: bool,
+}
+
+/// What tells a cause.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Answers have the value that a known mistake gives.
+    Trap,
+    /// Tests of one flag fail, others less.
+    Flag,
+    /// The answers themselves.
+    Fact,
+}
+
+impl Kind {
+    /// In a word.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Trap => "trap",
+            Self::Flag => "flag",
+            Self::Fact => "fact",
+        }
+    }
+}
+
+/// A test that was run, and how it ended.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Case<'a> {
+    pub(super) test: &'a Test,
+    /// None if the answer was right.
+    pub(super) wrong: Option<&'a Wrong>,
+    /// The answer, if there was one.
+    pub(super) judged: Option<&'a Judged>,
+}
+
+impl<'a> Case<'a> {
+    /// The wrong answer, if one was given.
+    pub(super) fn answer(self) -> Option<&'a Judged> {
+        self.judged.filter(|judged| !judged.right)
+    }
+}
+
+/// A cause before it is ranked: which cases it explains.
+pub(super) struct Candidate {
+    pub(super) kind: Kind,
+    pub(super) name: String,
+    pub(super) note: String,
+    pub(super) explained: Vec<usize>,
+    pub(super) tests: usize,
+    pub(super) elsewhere: Option<(usize, usize)>,
+    /// Of a cause that is no trap.
+    pub(super) weight: f64,
+}
+
+/// The causes of an operation's failures, the most likely one first.
+pub(super) fn diagnose(vectors: &Vectors, verdicts: &[Verdict]) -> Vec<Cause> {
+    let run = vectors.tests.iter().zip(verdicts).filter_map(|(test, verdict)| match verdict {
+        Verdict::Passed(judged) => Some(Case { test, wrong: None, judged: Some(judged) }),
+        Verdict::Failed(wrong) | Verdict::Known(wrong) => match wrong {
+            Wrong::Answer(judged) => Some(Case { test, wrong: Some(wrong), judged: Some(judged) }),
+            Wrong::Trouble(_) => Some(Case { test, wrong: Some(wrong), judged: None }),
+            Wrong::NotRun(_) => None,
+        },
+        Verdict::Skipped(_) => None,
+    });
+    let cases: Vec<_> = run.collect();
+    let traps = vectors.traps.iter().filter_map(|(name, note)| trap(&cases, name, note));
+    let mut candidates: Vec<_> = traps.collect();
+    candidates.extend(facts(&cases));
+    candidates.extend(vectors.flags.iter().filter_map(|(name, note)| flag(&cases, name, note)));
+    rank(&cases, candidates)
+}
+
+fn rank(cases: &[Case<'_>], candidates: Vec<Candidate>) -> Vec<Cause> {
+    let failures = cases.iter().filter(|case| case.wrong.is_some()).count();
+    let recall = |c: &Candidate| match c.kind {
+        Kind::Trap => explained_by(cases, c) / failures as f64,
+        Kind::Flag | Kind::Fact => c.explained.len() as f64 / failures as f64,
+    };
+    let score = |c: &Candidate| {
+        let (explained, tests) = (c.explained.len() as f64, c.tests as f64);
+        match c.kind {
+            Kind::Trap => explained / tests * (1.0 + recall(c)) / 2.0,
+            // 2 P R / (P + R)
+            Kind::Flag | Kind::Fact => c.weight * 2.0 * explained / (failures as f64 + tests),
+        }
+    };
+    let mut scored: Vec<_> = candidates.into_iter().map(|c| (score(&c), c)).collect();
+    // Of equal ones that which explains more, then the first.
+    scored.sort_by(|(a, c), (b, d)| b.total_cmp(a).then(d.explained.len().cmp(&c.explained.len())));
+    let mut known: HashSet<usize> = HashSet::new();
+    let mut whole = false;
+    let mut last = f64::INFINITY;
+    let causes = scored.into_iter().map(|(score, candidate)| {
+        // Equals cannot be told apart.
+        let lesser = score < std::mem::replace(&mut last, score);
+        let redundant = lesser && (whole || candidate.explained.iter().all(|index| known.contains(index)));
+        whole |= candidate.kind == Kind::Trap && recall(&candidate) >= WHOLE;
+        known.extend(&candidate.explained);
+        let Candidate { kind, name, note, explained, tests, elsewhere, .. } = candidate;
+        Cause { kind, name, note, explained: explained.len(), tests, elsewhere, score, redundant }
+    });
+    causes.collect()
+}
+
+/// The indices of the cases for which this holds.
+pub(super) fn indices(cases: &[Case<'_>], holds: impl Fn(Case<'_>) -> bool) -> Vec<usize> {
+    (0..cases.len()).filter(|&index| holds(cases[index])).collect()
+}
+
+fn trap(cases: &[Case<'_>], name: &str, note: &str) -> Option<Candidate> {
+    let explained = indices(cases, |case| {
+        let value = case.test.traps.get(name);
+        value.zip(case.answer()).is_some_and(|(trap, judged)| is_caught(trap, &judged.answer))
+    });
+    let tests = cases.iter().filter(|case| case.judged.is_some() && case.test.traps.contains_key(name));
+    (!explained.is_empty()).then(|| Candidate {
+        kind: Kind::Trap,
+        name: name.to_owned(),
+        note: note.to_owned(),
+        explained,
+        tests: tests.count(),
+        elsewhere: None,
+        weight: 1.0,
+    })
+}
+
+/// Whether the answer is that of the trap.
+fn is_caught(trap: &Trap, answer: &Answered) -> bool {
+    match (trap, answer) {
+        (Trap::Count(trap), Answered::Count(count)) => trap == count,
+        (Trap::Text(name), Answered::Error(error)) => name == error,
+        (Trap::Text(text), Answered::Float(x, _)) => hex_float::parse::<f64>(text).is_ok_and(|trap| {
+            trap == *x
+                || trap.is_nan() && x.is_nan()
+                || (x - trap).abs() <= TRAP_WIDTH * trap.abs() && trap.is_finite()
+        }),
+        _ => false,
+    }
+}
+
+/// About how many failures a trap explains, also among those of tests that lack it because enough have it.
+fn explained_by(cases: &[Case<'_>], trap: &Candidate) -> f64 {
+    let of_format = |format: &str| {
+        let in_format = |case: &&Case<'_>| case.test.format == format;
+        let mut having: HashMap<&str, usize> = HashMap::new();
+        for name in cases.iter().filter(in_format).flat_map(|case| case.test.traps.keys()) {
+            *having.entry(name).or_default() += 1;
+        }
+        let most = having.values().max().copied().unwrap_or_default();
+        let own = having.get(trap.name.as_str()).copied().unwrap_or_default();
+        let explained = trap.explained.iter().filter(|index| in_format(&&cases[**index])).count() as f64;
+        if own == 0 || own < most {
+            return explained;
+        }
+        let failures = cases.iter().filter(in_format).filter(|case| case.wrong.is_some()).count();
+        explained / own as f64 * failures as f64
+    };
+    [f32::FORMAT, f64::FORMAT].into_iter().map(of_format).sum()
+}
+
+fn flag(cases: &[Case<'_>], name: &str, note: &str) -> Option<Candidate> {
+    let has = |case: Case<'_>| case.test.flags.iter().any(|flag| flag == name);
+    let explained = indices(cases, |case| case.wrong.is_some() && has(case));
+    let tests = cases.iter().filter(|case| has(**case)).count();
+    let failures = cases.iter().filter(|case| case.wrong.is_some()).count();
+    let elsewhere = (failures - explained.len(), cases.len() - tests);
+    // explained / tests > LIFT * elsewhere.0 / elsewhere.1
+    let telling = explained.len() * elsewhere.1 > LIFT * elsewhere.0 * tests;
+    telling.then(|| Candidate {
+        kind: Kind::Flag,
+        name: name.to_owned(),
+        note: note.to_owned(),
+        explained,
+        tests,
+        elsewhere: Some(elsewhere),
+        weight: FLAG_WEIGHT,
+    })
+}

@@ -1,0 +1,244 @@
+//! Causes that show in the answers themselves, whatever the operation.
+
+use super::Wrong;
+use super::diagnosis::{Candidate, Case, Kind, indices};
+use super::judge::{Answered, Deviation, Judged};
+use super::vectors::Want;
+use crate::output::short;
+use crate::protocol::errors;
+use mean_information::Real;
+use std::collections::BTreeMap;
+
+/// What is certain, but says less than a trap, and what is a pattern that numbers follow.
+const PLAIN: f64 = 0.95;
+const PATTERN: f64 = 0.9;
+/// A pattern shows in so many answers at least.
+const LEAST: usize = 3;
+/// Up to this error, in ulp, an answer suffers from rounding, not from a mistake.
+const FEW_ULP: f64 = 64.0;
+/// Of wrong numbers, if they are to be so by rounding.
+const MOST: f64 = 0.9;
+/// Numbers with a relative error below this have digits in common.
+const NEAR: f64 = f64::EPSILON * 68_719_476_736.0; // 2^-16
+const SAME: f64 = NEAR / 16.0;
+
+/// What the failures show.
+pub(super) fn facts(cases: &[Case<'_>]) -> Vec<Candidate> {
+    let mut candidates = Vec::new();
+    for (name, note, holds) in PLAIN_FACTS {
+        candidates.push(fact(name, (*note).to_owned(), PLAIN, indices(cases, holds)));
+    }
+    candidates.extend(words(cases));
+    candidates
+        .extend([constant(cases), factor(cases), complement(cases), few_ulp(cases)].into_iter().flatten());
+    candidates.extend(bits(cases));
+    candidates.retain(|candidate| !candidate.explained.is_empty());
+    candidates
+}
+
+fn fact(name: &str, note: String, weight: f64, explained: Vec<usize>) -> Candidate {
+    let tests = explained.len();
+    Candidate { kind: Kind::Fact, name: name.to_owned(), note, explained, tests, elsewhere: None, weight }
+}
+
+type PlainFact = (&'static str, &'static str, fn(Case<'_>) -> bool);
+
+/// Name, what is wrong, and how it is told.
+const PLAIN_FACTS: &[PlainFact] = &[
+    ("trouble", "crashes, hangs or breaks the protocol", |case| {
+        matches!(case.wrong, Some(Wrong::Trouble(_)))
+    }),
+    (
+        "not-of-format",
+        "answers numbers that the format asked for does not have: in double precision where single is asked for",
+        |case| answered(case, |answer| matches!(answer, Answered::NotOfFormat(_))),
+    ),
+    (
+        "unreadable",
+        "answers something else than a hexadecimal float in a string, or for a count a JSON integer",
+        |case| {
+            answered(case, |answer| match (answer, &case.test.want) {
+                (Answered::Unreadable(_), _) => true,
+                (Answered::Float(..), want) => matches!(want, Want::Count { .. }),
+                (Answered::Count(_), want) => !matches!(want, Want::Count { .. }),
+                _ => false,
+            })
+        },
+    ),
+    ("nan", "answers NaN where there is a number", |case| {
+        numeric(case) && answered(case, |answer| matches!(answer, Answered::Float(x, _) if x.is_nan()))
+    }),
+    ("infinite", "answers infinity where there is a finite number", |case| {
+        numeric(case) && answered(case, |answer| matches!(answer, Answered::Float(x, _) if x.is_infinite()))
+    }),
+    ("nan-for-error", "answers NaN where the error \"domain\" is to be answered", |case| {
+        refused(case) && answered(case, |answer| matches!(answer, Answered::Float(x, _) if x.is_nan()))
+    }),
+    ("accepts", "computes a number where arguments lie outside the domain: they are not checked", |case| {
+        let number = |answer: &Answered| match answer {
+            Answered::Float(x, _) => !x.is_nan(),
+            other => matches!(other, Answered::Count(_)),
+        };
+        refused(case) && answered(case, number)
+    }),
+    ("refuses", "answers the error \"domain\" to arguments that lie in the domain", |case| {
+        !refused(case)
+            && answered(case, |answer| matches!(answer, Answered::Error(word) if word == errors::DOMAIN))
+    }),
+    ("negative-zero", "answers -0 where +0 is the nearest float", |case| {
+        answered(case, |answer| matches!(answer, Answered::Float(x, _) if *x == 0.0 && x.is_sign_negative()))
+    }),
+];
+
+fn answered(case: Case<'_>, holds: impl Fn(&Answered) -> bool) -> bool {
+    case.answer().is_some_and(|judged| holds(&judged.answer))
+}
+
+fn numeric(case: Case<'_>) -> bool {
+    matches!(case.test.want, Want::Enclosure { .. })
+}
+
+fn refused(case: Case<'_>) -> bool {
+    matches!(case.test.want, Want::Error { .. })
+}
+
+/// Errors of other names, one fact each.
+fn words(cases: &[Case<'_>]) -> Vec<Candidate> {
+    let mut by_word: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+    for (index, case) in cases.iter().enumerate() {
+        if let Some(Answered::Error(word)) = case.answer().map(|judged| &judged.answer)
+            && word != errors::DOMAIN
+        {
+            by_word.entry(word).or_default().push(index);
+        }
+    }
+    let note = |word: &str| format!("answers the error \"{word}\"");
+    by_word.into_iter().map(|(word, explained)| fact("error", note(word), PLAIN, explained)).collect()
+}
+
+/// A finite number that was answered.
+#[derive(Clone, Copy)]
+struct Number {
+    case: usize,
+    right: bool,
+    value: f64,
+    error: Deviation,
+}
+
+/// Numbers that were answered where one was wanted, right ones too.
+fn numbers(cases: &[Case<'_>]) -> Vec<Number> {
+    let number = |(case, Case { judged, .. }): (usize, &Case<'_>)| match judged {
+        Some(Judged { right, answer: Answered::Float(value, _), error: Some(error) }) => {
+            Some(Number { case, right: *right, value: *value, error: *error })
+        }
+        _ => None,
+    };
+    cases.iter().enumerate().filter_map(number).collect()
+}
+
+/// Those that are wrong.
+fn wrong_numbers(cases: &[Case<'_>]) -> Vec<Number> {
+    numbers(cases).into_iter().filter(|number| !number.right).collect()
+}
+
+/// A pattern that all numbers should follow if it is the cause of some.
+fn followed(
+    cases: &[Case<'_>],
+    name: &str,
+    note: String,
+    follows: impl Fn(&Number) -> bool,
+) -> Option<Candidate> {
+    let numbers = numbers(cases);
+    let wrong = numbers.iter().filter(|number| !number.right && follows(number));
+    let explained: Vec<_> = wrong.map(|number| number.case).collect();
+    let others = numbers.iter().filter(|number| !follows(number)).count();
+    let tests = explained.len() + others;
+    // Half of the tests: less is chance.
+    let telling = explained.len() >= LEAST && 2 * explained.len() >= tests;
+    telling.then(|| Candidate { tests, ..fact(name, note, PATTERN, explained) })
+}
+
+/// The same answer to everything.
+fn constant(cases: &[Case<'_>]) -> Option<Candidate> {
+    let mut by_value: BTreeMap<u64, usize> = BTreeMap::new();
+    for number in wrong_numbers(cases) {
+        *by_value.entry(number.value.to_bits()).or_default() += 1;
+    }
+    let (bits, _) = by_value.into_iter().max_by_key(|(_, count)| *count)?;
+    let note = format!("answers {} whatever is asked", short(f64::from_bits(bits)));
+    followed(cases, "constant", note, |number| number.value.to_bits() == bits)
+}
+
+/// The exact result times a factor.
+fn factor(cases: &[Case<'_>]) -> Option<Candidate> {
+    let ratio = |number: &Number| number.value / number.error.exact;
+    let mut ratios: Vec<_> = wrong_numbers(cases).iter().map(ratio).collect();
+    ratios.retain(|ratio| ratio.is_finite() && *ratio != 0.0);
+    ratios.sort_by(f64::total_cmp);
+    let median = *ratios.get(ratios.len() / 2)?;
+    let alike = |ratio: f64| (ratio - median).abs() <= SAME * median.abs();
+    let known = KNOWN_FACTORS.iter().find(|(factor, _)| alike(*factor)).map(|(_, what)| *what);
+    let note = format!("answers {} times the exact result{}", short(median), known.unwrap_or_default());
+    let zero = |number: &Number| number.value == 0.0 && number.error.exact == 0.0;
+    let factor = followed(cases, "factor", note, |number| alike(ratio(number)) || zero(number));
+    factor.filter(|_| (median - 1.0).abs() > NEAR)
+}
+
+/// Factors that are known by name.
+const KNOWN_FACTORS: &[(f64, &str)] = &[
+    (std::f64::consts::LN_2, ", ln 2: nats in place of bits"),
+    (std::f64::consts::LOG2_E, ", 1 / ln 2: divided by ln 2 once more than needed"),
+    (std::f64::consts::LOG10_2, ", log10 2: decimal logarithms in place of log2"),
+];
+
+/// One less the exact result.
+fn complement(cases: &[Case<'_>]) -> Option<Candidate> {
+    let note = "answers 1 less the exact result: entropy for information, occupied for free".to_owned();
+    followed(cases, "complement", note, |number| (number.value + number.error.exact - 1.0).abs() <= SAME)
+}
+
+/// Answers that miss by rounding.
+fn few_ulp(cases: &[Case<'_>]) -> Option<Candidate> {
+    let wrong = wrong_numbers(cases);
+    let all = wrong.len() as f64;
+    let near: Vec<_> = wrong.into_iter().filter(|number| number.error.ulp <= FEW_ULP).collect();
+    let worst = near.iter().map(|number| number.error.ulp).fold(0.0, f64::max);
+    let note = format!(
+        "is off by up to {} ulp: rounding errors add up; claim what the port promises, or round once at the end",
+        short(worst)
+    );
+    let explained: Vec<_> = near.into_iter().map(|number| number.case).collect();
+    // Where many errors are larger, these are the small ones of something else.
+    (!explained.is_empty() && explained.len() as f64 >= MOST * all)
+        .then(|| fact("rounding", note, PATTERN, explained))
+}
+
+/// Answers with some digits right, by format, if most that are wrong are so.
+fn bits(cases: &[Case<'_>]) -> Vec<Candidate> {
+    let mut by_format: BTreeMap<&str, Vec<Number>> = BTreeMap::new();
+    let mut wrong: BTreeMap<&str, usize> = BTreeMap::new();
+    for number in wrong_numbers(cases) {
+        *wrong.entry(&cases[number.case].test.format).or_default() += 1;
+        let Deviation { ulp, relative, .. } = number.error;
+        if ulp > FEW_ULP && relative < NEAR && relative > 0.0 {
+            by_format.entry(&cases[number.case].test.format).or_default().push(number);
+        }
+    }
+    let candidate = |(format, mut numbers): (&str, Vec<Number>)| {
+        numbers.sort_by(|a, b| a.error.relative.total_cmp(&b.error.relative));
+        // The exponent: relative = 2^-bits, about.
+        let (m, e) = numbers[numbers.len() / 2].error.relative.parts();
+        let bits = -(e + m.ilog2() as i32);
+        let is_single = |number: &Number| f32::nearest(number.value).widen() == number.value;
+        let single = format == f64::FORMAT && (SINGLE_BITS.contains(&bits) || numbers.iter().all(is_single));
+        let what = if single { ": something is computed in single precision" } else { "" };
+        let note = format!("answers in {format} are right to about {bits} bits{what}");
+        let explained: Vec<_> = numbers.into_iter().map(|number| number.case).collect();
+        fact(if single { "single-precision" } else { "bits" }, note, PATTERN, explained)
+    };
+    let most = by_format.into_iter().filter(|(format, numbers)| 2 * numbers.len() >= wrong[format]);
+    most.map(candidate).collect()
+}
+
+/// About as many bits as numbers of single precision have.
+const SINGLE_BITS: std::ops::RangeInclusive<i32> = 22..=27;

@@ -1,0 +1,282 @@
+//! Whether an answer is right, and how far off it is: decided in integers of any size.
+//!
+//! With a tolerance of 0.5 ulp the answer is the float nearest to some number of the enclosure, ties to even, and a zero is
+//! `+0`. With a larger one it lies within so many ulp, spacings of the format's floats at the answer, of some number of it.
+
+use super::exact::Exact;
+use super::vectors::{Test, Want};
+use crate::hex_float::{self, ParseError};
+use crate::protocol::Reply;
+use mean_information::Real;
+use serde_json::Value;
+
+/// The tolerance that means the nearest float.
+pub const NEAREST: f64 = 0.5;
+
+/// An answer, judged.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Judged {
+    /// Whether it is right.
+    pub right: bool,
+    /// What it is.
+    pub answer: Answered,
+    /// Where a number was wanted and answered: how far off it is.
+    pub error: Option<Deviation>,
+}
+
+/// How far an answer is from the nearest number that would be right.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Deviation {
+    /// In spacings of the format's floats at the answer; at the exact result where that is more than twice the answer.
+    pub ulp: f64,
+    /// Relative to the exact result.
+    pub relative: f64,
+    /// The exact result, about.
+    pub exact: f64,
+}
+
+/// What was answered.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Answered {
+    /// A float of the format, widened, with its text.
+    Float(f64, String),
+    /// A count.
+    Count(u64),
+    /// An error by its name.
+    Error(String),
+    /// A number that is no float of the format that was asked for.
+    NotOfFormat(String),
+    /// Something else.
+    Unreadable(String),
+}
+
+/// Judges a result or an error; `tolerance` in ulp.
+pub(super) fn judge(test: &Test, tolerance: f64, reply: &Reply) -> Judged {
+    match test.format.as_str() {
+        f32::FORMAT => judge_as::<f32>(test, tolerance, reply),
+        _ => judge_as::<f64>(test, tolerance, reply),
+    }
+}
+
+fn judge_as<T: Real>(test: &Test, tolerance: f64, reply: &Reply) -> Judged {
+    let wants = || std::iter::once(&test.want).chain(&test.also);
+    let without_error = |right: bool, answer: Answered| Judged { right, answer, error: None };
+    match reply {
+        Reply::Error(name) => {
+            let right = wants().any(|want| matches!(want, Want::Error { error } if error == name));
+            without_error(right, Answered::Error(name.clone()))
+        }
+        Reply::Result(Value::String(text)) => match hex_float::parse::<T>(text) {
+            Ok(x) => {
+                let enclosures = wants().filter_map(|want| match want {
+                    Want::Enclosure { lo, hi } if x.is_finite() => Some((&lo.value, &hi.value)),
+                    _ => None,
+                });
+                let judged =
+                    enclosures.map(|(lo, hi)| (is_right(x, lo, hi, tolerance), deviation(x, lo, hi)));
+                let best = judged.min_by(|(a, d), (b, e)| b.cmp(a).then(d.ulp.total_cmp(&e.ulp)));
+                Judged {
+                    right: best.is_some_and(|(right, _)| right),
+                    answer: Answered::Float(x.widen(), text.clone()),
+                    error: best.map(|(_, error)| error),
+                }
+            }
+            Err(ParseError::NotRepresentable) => without_error(false, Answered::NotOfFormat(text.clone())),
+            Err(ParseError::Syntax) => without_error(false, Answered::Unreadable(format!("\"{text}\""))),
+        },
+        Reply::Result(value) => match value.as_u64() {
+            Some(n) => {
+                let right = wants().any(|want| *want == Want::Count { count: n });
+                without_error(right, Answered::Count(n))
+            }
+            None => without_error(false, Answered::Unreadable(value.to_string())),
+        },
+        // Nobody judges what was not answered.
+        Reply::Skipped(reason) => without_error(false, Answered::Unreadable(reason.clone())),
+    }
+}
+
+/// Whether a finite answer is right for some number from `lo` to `hi`.
+fn is_right<T: Real>(x: T, lo: &Exact, hi: &Exact, tolerance: f64) -> bool {
+    if tolerance > NEAREST {
+        let reach = Exact::of(tolerance).scaled(spacing(x));
+        let x = Exact::of(x);
+        return x.minus(&reach).cmp(hi).is_le() && lo.cmp(&x.plus(&reach)).is_le();
+    }
+    // The mirror image of a negative answer is as right.
+    let (lo, hi) = if x.is_sign_negative() { (negative(hi), negative(lo)) } else { (lo.clone(), hi.clone()) };
+    let (m, e) = x.parts();
+    if m == 0 && x.is_sign_negative() {
+        return false;
+    }
+    let double = 2 * i128::from(m);
+    let above = Exact::new(double + 1, e - 1);
+    // The spacing below a power of two is half the spacing above, down to the smallest normal number.
+    let below = if m == 1 << (T::PRECISION - 1) && e > T::MIN_EXPONENT {
+        Exact::new(2 * double - 1, e - 2)
+    } else {
+        Exact::new(double - 1, e - 1)
+    };
+    // A midpoint goes to the even one.
+    if m.is_multiple_of(2) {
+        below.cmp(&hi).is_le() && lo.cmp(&above).is_le()
+    } else {
+        below.cmp(&hi).is_lt() && lo.cmp(&above).is_lt()
+    }
+}
+
+fn negative(x: &Exact) -> Exact {
+    Exact::new(0, 0).minus(x)
+}
+
+/// The exponent of the spacing of floats at `x`.
+fn spacing<T: Real>(x: T) -> i32 {
+    if x.is_zero() { T::MIN_EXPONENT } else { x.parts().1 }
+}
+
+fn deviation<T: Real>(x: T, lo: &Exact, hi: &Exact) -> Deviation {
+    let answer = Exact::of(x);
+    let (distance, nearest) = if answer.cmp(lo).is_lt() {
+        (lo.minus(&answer), lo)
+    } else if answer.cmp(hi).is_gt() {
+        (answer.minus(hi), hi)
+    } else {
+        (Exact::new(0, 0), &answer)
+    };
+    let exact = nearest.approximate();
+    let unit = if answer.abs().scaled(1).cmp(&nearest.abs()).is_lt() {
+        spacing(T::nearest(exact))
+    } else {
+        spacing(x)
+    };
+    // Scaled before they are rounded: below the smallest float there is something, too.
+    let ulp = distance.scaled(-unit).approximate();
+    let relative = if ulp == 0.0 { 0.0 } else { ulp / nearest.abs().scaled(-unit).approximate() };
+    Deviation { ulp, relative, exact }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::vectors::Decimal;
+    use super::*;
+    use serde_json::json;
+
+    fn enclosure(lo: &str, hi: &str) -> Want {
+        let decimal = |text: &str| Decimal { text: text.to_owned(), value: Exact::decimal(text).unwrap() };
+        Want::Enclosure { lo: decimal(lo), hi: decimal(hi) }
+    }
+
+    fn test<T: Real>(want: Want, also: Vec<Want>) -> Test {
+        let (id, format) = (String::new(), T::FORMAT.to_owned());
+        Test {
+            id,
+            format,
+            args: [].into(),
+            want,
+            also,
+            tolerance_ulp: None,
+            flags: Vec::new(),
+            traps: [].into(),
+        }
+    }
+
+    fn judged<T: Real>(x: T, ends: (&str, &str), tolerance: f64) -> Judged {
+        let reply = Reply::Result(hex_float::format(x).into());
+        judge(&test::<T>(enclosure(ends.0, ends.1), Vec::new()), tolerance, &reply)
+    }
+
+    fn is_nearest<T: Real>(x: T, exact: &str) -> bool {
+        judged(x, (exact, exact), NEAREST).right
+    }
+
+    #[test]
+    fn only_the_nearest_float_is_right() {
+        for (exact, right) in [
+            ("4.99999999999999999e-1", 0.5_f64),
+            ("1e-330", 0.0),
+            ("3.5e-324", f64::from_bits(1)),
+            ("0.1", 0.1),
+            // A quarter of the spacing below 1: nearer to 1 than the midpoint, which the float below is not.
+            ("0.99999999999999997224442438437108648940920829772949", 1.0),
+            ("-0.1", -0.1),
+        ] {
+            assert!(is_nearest(right, exact), "{exact}");
+            assert!(!is_nearest(right.next_up(), exact), "{exact}");
+            assert!(right == 0.0 || !is_nearest(right.next_down(), exact), "{exact}");
+        }
+        assert!(is_nearest(0.1_f32, "0.1") && !is_nearest(0.1_f32.next_up(), "0.1"));
+        assert!(!is_nearest(-0.0_f64, "0") && !is_nearest(-0.1_f64, "0.1"));
+        assert!(!is_nearest(f64::NAN, "0.1") && !is_nearest(f64::INFINITY, "0.1"));
+    }
+
+    #[test]
+    fn ties_go_to_the_even_one() {
+        // 1 + 2^-53, between 1 and 1 + 2^-52; and 1 + 3 2^-53.
+        let (first, second) = (
+            "1.00000000000000011102230246251565404236316680908203125",
+            "1.00000000000000033306690738754696212708950042724609375",
+        );
+        let odd = 1.0_f64.next_up();
+        assert!(is_nearest(1.0_f64, first) && !is_nearest(odd, first));
+        assert!(is_nearest(odd.next_up(), second) && !is_nearest(odd, second));
+    }
+
+    /// Above 0.75 the spacing is 2^-53; the exact number is 0.75 + 3 2^-55.
+    #[test]
+    fn a_tolerance_counts_spacings_at_the_answer() {
+        let exact = "0.750000000000000083266726846886740531772375106811523437";
+        let allowed = |x: f64, tolerance| judged(x, (exact, exact), tolerance).right;
+        assert!(allowed(0.75, 0.75) && !allowed(0.75, 0.7499));
+        // The answer's own spacing: 1 below 0.75 it is 2^-53, too; at 1 it is 2^-52.
+        assert!(judged(1.0_f64, ("0.9999999999999995", "0.9999999999999995"), 2.2519).right);
+        assert!(!judged(1.0_f64, ("0.9999999999999995", "0.9999999999999995"), 2.2517).right);
+        // Some number of the enclosure is near enough, from either side.
+        assert!(judged(0.5_f64, ("0.3", "0.500000000000000001"), 2.0).right);
+        assert!(judged(0.5_f64, ("0.499999999999999999", "0.7"), 2.0).right);
+        assert!(!judged(0.5_f64, ("0.51", "0.7"), 2.0).right);
+        assert!(judged(0.0_f64, ("0", "0"), 2.0).right && judged(-0.0_f64, ("0", "0"), 2.0).right);
+    }
+
+    const TO_53: f64 = 9_007_199_254_740_992.0;
+
+    #[test]
+    fn errors_are_measured() {
+        let error = |x: f64, exact: &str| judged(x, (exact, exact), 2.0).error.unwrap();
+        assert_eq!(error(0.5, "0.5").ulp, 0.0);
+        assert_eq!(error(0.75, "0.625"), Deviation { ulp: 0.125 * TO_53, relative: 0.2, exact: 0.625 });
+        // Less than half of the exact result: in its spacings.
+        assert_eq!(error(0.0, "0.75").ulp, 0.75 * TO_53);
+        assert_eq!((error(0.0, "1e-330").relative, error(0.0, "0").relative), (1.0, 0.0));
+        let small = error(0.0, "1e-324").ulp;
+        assert!((0.2..0.21).contains(&small), "{small}");
+        assert_eq!(error(-0.5, "0.5").relative, 2.0);
+        let ends = judged(0.75_f64, ("0.25", "0.5"), 2.0).error.unwrap();
+        assert_eq!((ends.exact, ends.relative), (0.5, 0.5));
+    }
+
+    #[test]
+    fn any_of_several_answers_is_right() {
+        let domain = || Want::Error { error: "domain".to_owned() };
+        let also = vec![enclosure("0.5", "0.5"), domain(), Want::Count { count: 3 }];
+        let test = test::<f64>(enclosure("0.25", "0.25"), also);
+        let judged = |reply: &Reply| judge(&test, NEAREST, reply);
+        for (reply, right) in [
+            (Reply::Result("0x1p-2".into()), true),
+            (Reply::Result("0x1p-1".into()), true),
+            (Reply::Result("0x1p+0".into()), false),
+            (Reply::Result(json!(3)), true),
+            (Reply::Result(json!(4)), false),
+            (Reply::Result(json!(3.0)), false),
+            (Reply::Result(json!([])), false),
+            (Reply::Result("0.25".into()), false),
+            (Reply::Result("nan".into()), false),
+            (Reply::error("domain"), true),
+            (Reply::error("range"), false),
+        ] {
+            assert_eq!(judged(&reply).right, right, "{reply:?}");
+        }
+        // The nearest of them counts.
+        let deviation = judged(&Reply::Result("0x1.1p-1".into())).error.unwrap();
+        assert_eq!(deviation.exact, 0.5);
+    }
+}

@@ -1,0 +1,49 @@
+//! The file of known failures, which cannot go stale: an entry whose test does not fail is a failure itself.
+
+use crate::failure::Failure;
+use crate::maps::Problem;
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+
+/// The ids of tests that are known to fail.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct KnownFailures(BTreeSet<String>);
+
+impl KnownFailures {
+    /// Those of a file: an id per line; what follows a `#` is a comment.
+    ///
+    /// # Errors
+    /// A file that cannot be read.
+    pub fn read(path: &Path) -> Result<Self, Failure> {
+        let text =
+            fs::read_to_string(path).map_err(|e| Problem::new(path, format!("cannot be read: {e}")))?;
+        Ok(Self::parse(&text))
+    }
+
+    fn parse(text: &str) -> Self {
+        let ids = text.lines().map(|line| line.split('#').next().unwrap_or_default().trim());
+        Self(ids.filter(|id| !id.is_empty()).map(str::to_owned).collect())
+    }
+
+    /// Whether this test is known to fail.
+    pub(super) fn contains(&self, id: &str) -> bool {
+        self.0.contains(id)
+    }
+
+    /// All ids, sorted.
+    pub(super) fn ids(&self) -> impl Iterator<Item = &str> {
+        self.0.iter().map(String::as_str)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_and_comments() {
+        let known = KnownFailures::parse("# all of these\n\n a/f64/0x1p-2  # slow\r\nb,c\na/f64/0x1p-2\n");
+        assert_eq!(known.ids().collect::<Vec<_>>(), ["a/f64/0x1p-2", "b,c"]);
+    }
+}

@@ -1,0 +1,273 @@
+//! A port, checked against the vectors: `meaninfo check`.
+//!
+//! | module | holds |
+//! |---|---|
+//! | `exact` | numbers that are compared exactly |
+//! | `vectors` | the tests |
+//! | `judge` | whether an answer is right |
+//! | `process`, `run` | the port, and the conversation with it |
+//! | `known` | failures that are expected |
+//! | `diagnosis`, `facts` | why tests failed |
+//! | `words`, `report`, `junit` | the verdict, written |
+//! | `registry` | the list of operations, written |
+
+mod diagnosis;
+mod exact;
+mod facts;
+mod glob;
+mod judge;
+mod junit;
+mod known;
+mod process;
+mod registry;
+mod report;
+mod run;
+mod vectors;
+mod words;
+
+pub use diagnosis::{Cause, Kind};
+pub use judge::{Answered, Deviation, Judged, NEAREST};
+pub use known::KnownFailures;
+pub use process::Trouble;
+pub use registry::Registry;
+pub use run::Incident;
+pub use vectors::{Decimal, Test, Trap, Vectors, Want};
+
+use crate::failure::Failure;
+use crate::progress::Progress;
+use crate::protocol::{Reply, Welcome};
+use mean_information::Real;
+use run::{Conversation, Ending, Outcome};
+use std::ffi::OsString;
+use std::time::Duration;
+
+/// What is checked.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// How the port is started.
+    pub command: Vec<OsString>,
+    /// How long an answer may take.
+    pub limit: Duration,
+    /// Patterns of operations; none means all.
+    pub ops: Vec<String>,
+    /// Failures that are expected.
+    pub known: KnownFailures,
+}
+
+/// How a port fared.
+#[derive(Debug)]
+pub struct Check {
+    command: String,
+    port: Welcome,
+    /// Those selected, in the order of the vectors.
+    operations: Vec<Checked>,
+    ending: Ending,
+    /// Entries of the file of known failures that are none, with what they are.
+    stale: Vec<String>,
+    notes: Vec<String>,
+}
+
+/// How an operation fared.
+#[derive(Debug)]
+struct Checked {
+    vectors: Vectors,
+    declared: bool,
+    /// What the port claims, in ulp, where that is more than the contract.
+    claimed: Option<f64>,
+    /// Of each test.
+    verdicts: Vec<Verdict>,
+    causes: Vec<Cause>,
+}
+
+/// How a test ended.
+#[derive(Clone, Debug, PartialEq)]
+enum Verdict {
+    Passed(Judged),
+    Failed(Wrong),
+    /// It failed, as was known.
+    Known(Wrong),
+    /// Why.
+    Skipped(String),
+}
+
+/// How a test failed.
+#[derive(Clone, Debug, PartialEq)]
+enum Wrong {
+    Answer(Judged),
+    Trouble(Incident),
+    /// Why.
+    NotRun(String),
+}
+
+/// Tests by how they ended.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Counts {
+    cases: usize,
+    passed: usize,
+    failed: usize,
+    /// Known failures, too.
+    skipped: usize,
+    known: usize,
+}
+
+impl Counts {
+    fn of<'a>(verdicts: impl IntoIterator<Item = &'a Verdict>) -> Self {
+        verdicts.into_iter().fold(Self::default(), |mut counts, verdict| {
+            counts.cases += 1;
+            match verdict {
+                Verdict::Passed(_) => counts.passed += 1,
+                Verdict::Failed(_) => counts.failed += 1,
+                Verdict::Known(_) => {
+                    counts.skipped += 1;
+                    counts.known += 1;
+                }
+                Verdict::Skipped(_) => counts.skipped += 1,
+            }
+            counts
+        })
+    }
+}
+
+impl Check {
+    /// Runs the port against the vectors.
+    ///
+    /// # Errors
+    /// A port that cannot be started or talked to; patterns that no operation matches. What goes wrong later is part of the
+    /// verdict.
+    pub fn run(options: &Options, all: Vec<Vectors>) -> Result<Self, Failure> {
+        if let Some(pattern) =
+            options.ops.iter().find(|pattern| all.iter().all(|v| !glob::matches(pattern, &v.op)))
+        {
+            let names: Vec<_> = all.iter().map(|vectors| vectors.op.as_str()).collect();
+            return Err(Failure::Usage(format!(
+                "--ops {pattern}: no such operation among {}",
+                names.join(", ")
+            )));
+        }
+        let mut stale = unknown_ids(&options.known, &all);
+        let names: Vec<String> = all.iter().map(|vectors| vectors.op.clone()).collect();
+        let (mut conversation, port) = Conversation::open(&options.command, options.limit)?;
+        let command = run::command_line(&options.command);
+        refuse_strangers(&port, &names)
+            .map_err(|message| Failure::Port { command: command.clone(), message })?;
+
+        let selected =
+            |op: &str| options.ops.is_empty() || options.ops.iter().any(|pattern| glob::matches(pattern, op));
+        let selection: Vec<_> = all.into_iter().filter(|vectors| selected(&vectors.op)).collect();
+        let progress = Progress::new(selection.iter().map(|vectors| vectors.tests.len()).sum());
+        let mut operations = Vec::with_capacity(selection.len());
+        for vectors in selection {
+            progress.begin(&vectors.op);
+            operations.push(check(vectors, &port, &mut conversation, &options.known, &progress));
+        }
+        drop(progress);
+        stale.extend(operations.iter().flat_map(|operation| stale_ids(operation, &options.known)));
+        Ok(Self {
+            command,
+            notes: notes(&port, &names),
+            port,
+            operations,
+            ending: conversation.close(),
+            stale,
+        })
+    }
+
+    /// All operations together; entries of known failures that are none, and troubles between requests, have failed.
+    fn totals(&self) -> Counts {
+        let mut counts = Counts::of(self.operations.iter().flat_map(|operation| &operation.verdicts));
+        counts.failed += self.stale.len() + self.ending.incidents.len();
+        counts
+    }
+
+    /// Whether nothing failed.
+    pub fn holds(&self) -> bool {
+        self.totals().failed == 0
+    }
+}
+
+/// One operation, asked, judged and diagnosed.
+fn check(
+    vectors: Vectors,
+    port: &Welcome,
+    conversation: &mut Conversation<'_>,
+    known: &KnownFailures,
+    progress: &Progress,
+) -> Checked {
+    let declared = port.ops.contains(&vectors.op);
+    let claims = port.claims.iter().filter(|(pattern, _)| glob::matches(pattern, &vectors.op));
+    let claim = claims.map(|(_, claim)| *claim).fold(0.0, f64::max);
+    let has = |format: &String| port.formats.contains(format);
+    let asked: Vec<_> = vectors.tests.iter().filter(|test| declared && has(&test.format)).collect();
+    (asked.len()..vectors.tests.len()).for_each(|_| progress.done());
+    let mut outcomes = conversation.run(&vectors.op, &asked, || progress.done()).into_iter();
+    let verdict = |test: &Test| {
+        if !declared {
+            return Verdict::Skipped("the port does not declare the operation".to_owned());
+        }
+        if !has(&test.format) {
+            return Verdict::Skipped(format!("the port does not declare {}", test.format));
+        }
+        let contract = test.tolerance_ulp.unwrap_or(vectors.tolerance_ulp);
+        let wrong = match outcomes.next().unwrap_or(Outcome::NotRun) {
+            Outcome::Answered(Reply::Skipped(reason)) => return Verdict::Skipped(reason),
+            Outcome::Answered(reply) => {
+                let judged = judge::judge(test, contract.max(claim), &reply);
+                if judged.right {
+                    return Verdict::Passed(judged);
+                }
+                Wrong::Answer(judged)
+            }
+            Outcome::Failed(incident) => Wrong::Trouble(incident),
+            Outcome::NotRun => Wrong::NotRun("not run after too much trouble".to_owned()),
+        };
+        if known.contains(&test.id) { Verdict::Known(wrong) } else { Verdict::Failed(wrong) }
+    };
+    let verdicts: Vec<_> = vectors.tests.iter().map(verdict).collect();
+    let causes = diagnosis::diagnose(&vectors, &verdicts);
+    let claimed = (claim > vectors.tolerance_ulp).then_some(claim);
+    Checked { vectors, declared, claimed, verdicts, causes }
+}
+
+/// A port that has nothing which could be checked.
+fn refuse_strangers(port: &Welcome, names: &[String]) -> Result<(), String> {
+    if !port.formats.iter().any(|format| [f32::FORMAT, f64::FORMAT].contains(&format.as_str())) {
+        return Err(format!("its formats are neither f32 nor f64: {:?}", port.formats));
+    }
+    if !port.ops.iter().any(|op| names.contains(op)) {
+        return Err(format!("it has no operation that is known: {:?}", port.ops));
+    }
+    Ok(())
+}
+
+/// What the port says of itself that means nothing.
+fn notes(port: &Welcome, names: &[String]) -> Vec<String> {
+    let unknown = port.ops.iter().filter(|op| !names.contains(op));
+    let formats = port.formats.iter().filter(|format| ![f32::FORMAT, f64::FORMAT].contains(&format.as_str()));
+    let claims = port.claims.keys().filter(|pattern| !names.iter().any(|name| glob::matches(pattern, name)));
+    unknown
+        .map(|op| format!("the port declares the operation {op}, which has no vectors"))
+        .chain(formats.map(|format| format!("the port declares the format {format}, which has no vectors")))
+        .chain(
+            claims.map(|pattern| {
+                format!("the port claims a tolerance for {pattern}, which no operation matches")
+            }),
+        )
+        .collect()
+}
+
+fn unknown_ids(known: &KnownFailures, all: &[Vectors]) -> Vec<String> {
+    let ids: std::collections::HashSet<_> =
+        all.iter().flat_map(|v| &v.tests).map(|test| test.id.as_str()).collect();
+    known.ids().filter(|id| !ids.contains(id)).map(|id| format!("{id}: no such test")).collect()
+}
+
+fn stale_ids(operation: &Checked, known: &KnownFailures) -> Vec<String> {
+    let listed =
+        operation.vectors.tests.iter().zip(&operation.verdicts).filter(|(test, _)| known.contains(&test.id));
+    let stale = listed.filter_map(|(test, verdict)| match verdict {
+        Verdict::Passed(_) => Some(format!("{}: passes", test.id)),
+        Verdict::Skipped(reason) => Some(format!("{}: is skipped: {reason}", test.id)),
+        _ => None,
+    });
+    stale.collect()
+}

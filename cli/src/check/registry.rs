@@ -1,0 +1,80 @@
+//! The list of operations, written: its JSON is that of `vectors/v1/operations.json`.
+
+use crate::output::{Record, Report, Value, folded, text_table};
+use mean_information::operations::{Argument, OPERATIONS, Operation, Outcome, Shape};
+
+/// Equations are folded to about so many characters in the table.
+const EQUATION_WIDTH: usize = 60;
+
+/// Every operation of the protocol.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Registry;
+
+fn shape(argument: &Argument) -> &'static str {
+    match argument.shape {
+        Shape::Float => "float",
+        Shape::List => "list",
+        Shape::Rows => "rows",
+    }
+}
+
+fn outcome(operation: &Operation) -> &'static str {
+    match operation.result {
+        Outcome::Float => "float",
+        Outcome::Count => "count",
+    }
+}
+
+/// The arguments as they are written in a formula: `p`, `cells[]`, `particles[][]`.
+fn arguments(operation: &Operation) -> Vec<String> {
+    let brackets = |argument: &Argument| match argument.shape {
+        Shape::Float => "",
+        Shape::List => "[]",
+        Shape::Rows => "[][]",
+    };
+    operation.arguments.iter().map(|argument| format!("{}{}", argument.name, brackets(argument))).collect()
+}
+
+/// The record, with the arguments as given.
+fn record(operation: &Operation, arguments: Value) -> Record {
+    let text = |text: &str| Value::Text(text.to_owned());
+    Record(vec![
+        ("name", text(operation.name)),
+        ("arguments", arguments),
+        ("result", text(outcome(operation))),
+        ("domain", text(operation.domain)),
+        ("equation", text(operation.equation)),
+        ("function", text(operation.function)),
+        ("tolerance_ulp", Value::Given(Some(operation.tolerance_ulp))),
+    ])
+}
+
+impl Report for Registry {
+    fn table(&self) -> String {
+        let row = |operation: &Operation| {
+            [
+                operation.name.to_owned(),
+                arguments(operation).join("\n"),
+                folded(operation.equation, EQUATION_WIDTH),
+                operation.tolerance_ulp.to_string(),
+            ]
+        };
+        let header = ["operation", "arguments", "exact result", "tolerance\n(ulp)"];
+        text_table(header, OPERATIONS.iter().map(row))
+    }
+
+    fn rows(&self) -> Vec<Record> {
+        OPERATIONS.iter().map(|operation| record(operation, Value::Texts(arguments(operation)))).collect()
+    }
+
+    fn json(&self) -> Value {
+        let argument = |argument: &Argument| {
+            let text = |text: &str| Value::Text(text.to_owned());
+            Record(vec![("name", text(argument.name)), ("shape", text(shape(argument)))])
+        };
+        let nested = |operation: &Operation| {
+            record(operation, Value::Records(operation.arguments.iter().map(argument).collect()))
+        };
+        Value::Records(OPERATIONS.iter().map(nested).collect())
+    }
+}

@@ -1,0 +1,338 @@
+//! The verdict: a table with the causes of failures below it, JSON with everything, CSV with the numbers.
+
+use super::run::request;
+use super::vectors::Test;
+use super::{Answered, Cause, Check, Checked, Counts, Incident, Verdict, Wrong, words};
+use crate::maps::one_line;
+use crate::output::{Number, Record, Report, Value, short, table};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+/// So many causes of an operation's failures are shown in the table.
+const CAUSES_SHOWN: usize = 3;
+/// Only those whose score is so much of the best one's.
+const LIKELY: f64 = 0.5;
+/// So many troubles of an operation.
+const TROUBLES_SHOWN: usize = 3;
+
+impl Checked {
+    /// Each format with the verdicts of its tests, in the order of the vectors.
+    fn formats(&self) -> Vec<(&str, Vec<&Verdict>)> {
+        let mut formats: Vec<(&str, Vec<&Verdict>)> = Vec::new();
+        for (test, verdict) in self.vectors.tests.iter().zip(&self.verdicts) {
+            match formats.iter_mut().find(|(format, _)| *format == test.format) {
+                Some((_, verdicts)) => verdicts.push(verdict),
+                None => formats.push((&test.format, vec![verdict])),
+            }
+        }
+        formats
+    }
+
+    /// Tests that failed, known ones too.
+    pub(super) fn failures(&self) -> impl Iterator<Item = (&Test, &Wrong)> {
+        self.vectors.tests.iter().zip(&self.verdicts).filter_map(|(test, verdict)| match verdict {
+            Verdict::Failed(wrong) | Verdict::Known(wrong) => Some((test, wrong)),
+            _ => None,
+        })
+    }
+
+    /// The wrong answer that is furthest off; if none of them is a number, the first.
+    fn worst(&self) -> Option<(&Test, &Wrong)> {
+        let answers = || self.failures().filter(|(_, wrong)| matches!(wrong, Wrong::Answer(_)));
+        let ulp = |wrong: &Wrong| match wrong {
+            Wrong::Answer(judged) => judged.error.map(|error| error.ulp),
+            _ => None,
+        };
+        let numbers = answers().filter_map(|(test, wrong)| ulp(wrong).map(|ulp| (ulp, (test, wrong))));
+        let worst = numbers.reduce(|worst, next| if next.0 > worst.0 { next } else { worst });
+        worst.map(|(_, case)| case).or_else(|| answers().next())
+    }
+
+    fn section(&self, text: &mut String) {
+        let counts = Counts::of(&self.verdicts);
+        let failures = counts.failed + counts.known;
+        if failures == 0 {
+            return;
+        }
+        let _ = writeln!(text, "\n{}: {failures} of {} failed", self.vectors.op, counts.cases);
+        let best = self.causes.first().map_or(0.0, |cause| cause.score);
+        let likely = self.causes.iter().filter(|cause| !cause.redundant && cause.score >= LIKELY * best);
+        for cause in likely.take(CAUSES_SHOWN) {
+            let _ = writeln!(text, "  {}", words::cause(cause, failures));
+        }
+        let not_run = self.failures().filter(|(_, wrong)| matches!(wrong, Wrong::NotRun(_))).count();
+        if not_run > 0 {
+            let _ = writeln!(text, "  not run after too much trouble: {not_run} of {failures} failures");
+        }
+        if let Some((test, wrong)) = self.worst() {
+            let _ = writeln!(text, "  worst: {}, in {}", one_line(&test.id), test.format);
+            let _ = writeln!(text, "    {}", words::arguments(test));
+            let _ = writeln!(text, "    wanted {}", words::wanted(test));
+            let _ = writeln!(text, "    answered {}", words::answered(wrong));
+        }
+        let troubles = self.failures().filter_map(|(test, wrong)| match wrong {
+            Wrong::Trouble(incident) => Some((test, incident)),
+            _ => None,
+        });
+        for (test, incident) in troubles.take(TROUBLES_SHOWN) {
+            let _ = writeln!(text, "  trouble: {}", one_line(&test.id));
+            let _ = writeln!(text, "    {}", words::arguments(test));
+            let _ = writeln!(text, "    {}", incident.trouble);
+            errors(text, incident);
+        }
+    }
+
+    fn record(&self, format: &str, verdicts: &[&Verdict]) -> Record {
+        let counts = Counts::of(verdicts.iter().copied());
+        let count = |n: usize| Value::Count(n as u64);
+        let cause = self.causes.first().map(|cause| cause.name.clone()).unwrap_or_default();
+        Record(vec![
+            ("operation", Value::Text(self.vectors.op.clone())),
+            ("format", Value::Text(format.to_owned())),
+            ("declared", Value::Flag(self.declared)),
+            ("tolerance_ulp", Value::Given(Some(self.vectors.tolerance_ulp))),
+            ("claimed_ulp", Value::Given(self.claimed)),
+            ("cases", count(counts.cases)),
+            ("passed", count(counts.passed)),
+            ("failed", count(counts.failed)),
+            ("skipped", count(counts.skipped)),
+            ("known_failures", count(counts.known)),
+            ("worst_error_ulp", Value::Computed(worst_error(verdicts).map(Number::Double))),
+            ("cause", Value::Text(if counts.failed + counts.known > 0 { cause } else { String::new() })),
+        ])
+    }
+
+    fn json(&self) -> Record {
+        let formats = self.formats().iter().map(|(format, verdicts)| self.record(format, verdicts)).collect();
+        let failures = self.failures().map(|(test, wrong)| self.failure(test, wrong)).collect();
+        let worst = self.worst().map(|(test, _)| test.id.clone()).unwrap_or_default();
+        Record(vec![
+            ("operation", Value::Text(self.vectors.op.clone())),
+            ("declared", Value::Flag(self.declared)),
+            ("formats", Value::Records(formats)),
+            ("causes", Value::Records(self.causes.iter().map(cause).collect())),
+            ("worst_case", Value::Text(worst)),
+            ("failures", Value::Records(failures)),
+        ])
+    }
+
+    fn failure(&self, test: &Test, wrong: &Wrong) -> Record {
+        let (ulp, stderr) = match wrong {
+            Wrong::Answer(judged) => (judged.error.map(|error| error.ulp), Vec::new()),
+            Wrong::Trouble(incident) => (None, incident.errors.clone()),
+            Wrong::NotRun(_) => (None, Vec::new()),
+        };
+        let answer = match wrong {
+            Wrong::Answer(judged) => match &judged.answer {
+                Answered::Count(count) => count.to_string(),
+                Answered::Error(text)
+                | Answered::Float(_, text)
+                | Answered::NotOfFormat(text)
+                | Answered::Unreadable(text) => text.clone(),
+            },
+            _ => String::new(),
+        };
+        Record(vec![
+            ("id", Value::Text(test.id.clone())),
+            ("format", Value::Text(test.format.clone())),
+            ("request", Value::Text(request(&self.vectors.op, test, 1).line())),
+            ("wanted", Value::Text(words::wanted(test))),
+            ("answer", Value::Text(answer)),
+            ("what", Value::Text(words::answered(wrong))),
+            ("error_ulp", Value::Computed(ulp.map(Number::Double))),
+            ("flags", Value::Texts(test.flags.clone())),
+            ("stderr", Value::Texts(stderr)),
+        ])
+    }
+}
+
+fn cause(cause: &Cause) -> Record {
+    let count = |n: usize| Value::Count(n as u64);
+    let mut record = vec![
+        ("kind", Value::Text(cause.kind.name().to_owned())),
+        ("name", Value::Text(cause.name.clone())),
+        ("note", Value::Text(cause.note.clone())),
+        ("explained", count(cause.explained)),
+        ("tests", count(cause.tests)),
+    ];
+    if let Some((failed, all)) = cause.elsewhere {
+        record.extend([("failed_elsewhere", count(failed)), ("tests_elsewhere", count(all))]);
+    }
+    record.extend([("score", Value::Given(Some(cause.score))), ("redundant", Value::Flag(cause.redundant))]);
+    Record(record)
+}
+
+/// The largest error of numbers that were answered, right ones too.
+fn worst_error(verdicts: &[&Verdict]) -> Option<f64> {
+    let ulp = |verdict: &&Verdict| match verdict {
+        Verdict::Passed(judged)
+        | Verdict::Failed(Wrong::Answer(judged))
+        | Verdict::Known(Wrong::Answer(judged)) => judged.error.map(|error| error.ulp),
+        _ => None,
+    };
+    verdicts.iter().filter_map(ulp).reduce(f64::max)
+}
+
+/// The last lines of standard error.
+fn errors(text: &mut String, incident: &Incident) {
+    for line in &incident.errors {
+        let _ = writeln!(text, "    stderr: {line}");
+    }
+}
+
+impl Check {
+    fn undeclared(&self) -> Vec<&Checked> {
+        self.operations.iter().filter(|operation| !operation.declared).collect()
+    }
+
+    /// What was skipped, and why: how often.
+    fn skipped(&self) -> BTreeMap<&str, usize> {
+        let mut reasons = BTreeMap::new();
+        for verdict in self.operations.iter().filter(|o| o.declared).flat_map(|o| &o.verdicts) {
+            if let Verdict::Skipped(reason) = verdict {
+                *reasons.entry(reason.as_str()).or_default() += 1;
+            }
+        }
+        reasons
+    }
+
+    fn summary(&self) -> String {
+        let row = |operation: &Checked, format: &str, verdicts: &[&Verdict]| {
+            let counts = Counts::of(verdicts.iter().copied());
+            let tolerance = match operation.claimed {
+                Some(claim) => format!("{} claimed", short(claim)),
+                None => operation.vectors.tolerance_ulp.to_string(),
+            };
+            [
+                operation.vectors.op.clone(),
+                format.to_owned(),
+                counts.cases.to_string(),
+                counts.passed.to_string(),
+                counts.failed.to_string(),
+                counts.skipped.to_string(),
+                worst_error(verdicts).map(short).unwrap_or_default(),
+                tolerance,
+            ]
+        };
+        let mut rows = Vec::new();
+        for operation in self.operations.iter().filter(|operation| operation.declared) {
+            rows.extend(
+                operation.formats().iter().map(|(format, verdicts)| row(operation, format, verdicts)),
+            );
+        }
+        let header = [
+            "operation",
+            "format",
+            "cases",
+            "passed",
+            "failed",
+            "skipped",
+            "worst error\n(ulp)",
+            "allowed\n(ulp)",
+        ];
+        table(header, rows)
+    }
+
+    /// What was not run or not counted, and why.
+    fn remarks(&self, text: &mut String) {
+        let undeclared = self.undeclared();
+        if !undeclared.is_empty() {
+            let names: Vec<_> = undeclared.iter().map(|operation| operation.vectors.op.as_str()).collect();
+            let cases: usize = undeclared.iter().map(|operation| operation.verdicts.len()).sum();
+            let all = self.operations.len();
+            let _ = writeln!(
+                text,
+                "not declared: {} of {all} operations, {cases} cases skipped: {}",
+                names.len(),
+                names.join(", ")
+            );
+        }
+        for (reason, cases) in self.skipped() {
+            let _ = writeln!(text, "{cases} cases skipped: {}", one_line(reason));
+        }
+        let known = self.totals().known;
+        if known > 0 {
+            let _ = writeln!(text, "{known} known failures, counted as skipped");
+        }
+        for line in &self.stale {
+            let _ = writeln!(text, "not a known failure any more: {}", one_line(line));
+        }
+        for (place, incident) in &self.ending.incidents {
+            let _ = writeln!(text, "trouble {}: {}", one_line(place), incident.trouble);
+            errors(text, incident);
+        }
+        if self.ending.restarts > 0 {
+            let _ = writeln!(text, "the port was started again, {} times in all", self.ending.restarts);
+        }
+        if let Some(reason) = &self.ending.given_up {
+            let _ = writeln!(text, "given up, the rest has failed: {reason}");
+        }
+        for note in &self.notes {
+            let _ = writeln!(text, "note: {}", one_line(note));
+        }
+    }
+}
+
+impl Report for Check {
+    fn table(&self) -> String {
+        let names = [&self.port.name, &self.port.version, &self.port.language];
+        let names: Vec<_> =
+            names.into_iter().filter(|name| !name.is_empty()).map(|name| one_line(name)).collect();
+        let mut text = format!("{}: {}\n{}", one_line(&self.command), names.join(", "), self.summary());
+        for operation in &self.operations {
+            operation.section(&mut text);
+        }
+        text.push('\n');
+        self.remarks(&mut text);
+        let Counts { passed, failed, skipped, .. } = self.totals();
+        let _ = writeln!(text, "{passed} passed, {failed} failed, {skipped} skipped");
+        text
+    }
+
+    fn rows(&self) -> Vec<Record> {
+        let rows = |operation: &Checked| {
+            let formats = operation.formats().into_iter();
+            formats.map(|(format, verdicts)| operation.record(format, &verdicts)).collect::<Vec<_>>()
+        };
+        self.operations.iter().flat_map(rows).collect()
+    }
+
+    fn json(&self) -> Value {
+        let text = |text: &str| Value::Text(text.to_owned());
+        let count = |n: usize| Value::Count(n as u64);
+        let claim = |(pattern, ulp): (&String, &f64)| {
+            Record(vec![("operation", text(pattern)), ("ulp", Value::Given(Some(*ulp)))])
+        };
+        let port = Record(vec![
+            ("command", text(&self.command)),
+            ("name", text(&self.port.name)),
+            ("language", text(&self.port.language)),
+            ("version", text(&self.port.version)),
+            ("formats", Value::Texts(self.port.formats.clone())),
+            ("ops", Value::Texts(self.port.ops.clone())),
+            ("claims", Value::Records(self.port.claims.iter().map(claim).collect())),
+        ]);
+        let incident = |(place, incident): &(String, Incident)| {
+            Record(vec![
+                ("place", text(place)),
+                ("what", Value::Text(incident.trouble.to_string())),
+                ("stderr", Value::Texts(incident.errors.clone())),
+            ])
+        };
+        let Counts { passed, failed, skipped, known, .. } = self.totals();
+        Value::Record(Record(vec![
+            ("port", Value::Record(port)),
+            ("operations", Value::Records(self.operations.iter().map(Checked::json).collect())),
+            ("undeclared", Value::Texts(self.undeclared().iter().map(|o| o.vectors.op.clone()).collect())),
+            ("troubles", Value::Records(self.ending.incidents.iter().map(incident).collect())),
+            ("restarts", count(self.ending.restarts)),
+            ("given_up", text(self.ending.given_up.as_deref().unwrap_or_default())),
+            ("stale_known_failures", Value::Texts(self.stale.clone())),
+            ("notes", Value::Texts(self.notes.clone())),
+            ("known_failures", count(known)),
+            ("passed", count(passed)),
+            ("failed", count(failed)),
+            ("skipped", count(skipped)),
+        ]))
+    }
+}

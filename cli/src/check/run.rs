@@ -1,0 +1,223 @@
+//! The conversation with a port: requests are sent ahead, troubles are laid to the request that caused them, and the port is
+//! started again.
+
+use super::process::{Process, Trouble, shown};
+use super::vectors::Test;
+use crate::failure::Failure;
+use crate::maps::one_line;
+use crate::protocol::{Answer, Reply, Request, Run, VERSION, Welcome};
+use serde::Deserialize;
+use serde_json::Value;
+use std::ffi::OsString;
+use std::time::Duration;
+
+/// Requests that are sent before the first of them is answered.
+const AHEAD: usize = 32;
+/// After so many troubles the rest of an operation is not run.
+pub(super) const TROUBLES_PER_OPERATION: usize = 20;
+/// After so many answers that did not come in time nothing is run any more.
+pub(super) const TIME_OUTS: usize = 5;
+
+/// What became of a request.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Outcome {
+    Answered(Reply),
+    /// The port had trouble with it.
+    Failed(Incident),
+    /// It was not sent any more.
+    NotRun,
+}
+
+/// Trouble, and what the port said on its standard error.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Incident {
+    /// What went wrong.
+    pub trouble: Trouble,
+    /// The last lines.
+    pub errors: Vec<String>,
+}
+
+/// A port, and how it has fared.
+#[derive(Debug)]
+pub(super) struct Conversation<'a> {
+    command: &'a [OsString],
+    limit: Duration,
+    process: Option<Process>,
+    ahead: usize,
+    /// The number of the next request.
+    numbered: u64,
+    time_outs: usize,
+    restarts: usize,
+    /// Troubles that belong to no single request.
+    incidents: Vec<(String, Incident)>,
+    given_up: Option<String>,
+}
+
+/// How a conversation went.
+#[derive(Debug)]
+pub(super) struct Ending {
+    pub(super) restarts: usize,
+    /// When, and what.
+    pub(super) incidents: Vec<(String, Incident)>,
+    /// Why the rest was not run.
+    pub(super) given_up: Option<String>,
+}
+
+impl<'a> Conversation<'a> {
+    /// Starts a port and asks what it can do.
+    ///
+    /// # Errors
+    /// A port that cannot be started, refuses the protocol or does not understand it.
+    pub(super) fn open(command: &'a [OsString], limit: Duration) -> Result<(Self, Welcome), Failure> {
+        let (process, welcome) = greet(command, limit)
+            .map_err(|message| Failure::Port { command: command_line(command), message })?;
+        let conversation = Self {
+            command,
+            limit,
+            process: Some(process),
+            ahead: AHEAD,
+            numbered: 1,
+            time_outs: 0,
+            restarts: 0,
+            incidents: Vec::new(),
+            given_up: None,
+        };
+        Ok((conversation, welcome))
+    }
+
+    /// Runs the tests of one operation; as many outcomes, in their order. `done` is called for each.
+    pub(super) fn run(&mut self, op: &str, tests: &[&Test], done: impl Fn()) -> Vec<Outcome> {
+        let first = self.numbered;
+        self.numbered += tests.len() as u64;
+        let number = |index: usize| first + index as u64;
+        let mut outcomes = Vec::with_capacity(tests.len());
+        let mut troubles = 0;
+        let mut sent = 0;
+        // The end of a port that had several requests, up to this one: they are asked again, one at a time.
+        let mut suspected: Option<(Incident, usize)> = None;
+        while outcomes.len() < tests.len() && troubles < TROUBLES_PER_OPERATION {
+            let Some(process) = &mut self.process else { break };
+            let next = outcomes.len();
+            while sent < tests.len() && sent - next < self.ahead {
+                process.send(&request(op, tests[sent], number(sent)).line());
+                sent += 1;
+            }
+            let answer = process.receive(self.limit).and_then(|line| read_answer(&line, number(next)));
+            match answer {
+                Ok(reply) => {
+                    outcomes.push(Outcome::Answered(reply));
+                    done();
+                    if let Some((incident, _)) = suspected.take_if(|(_, end)| *end == outcomes.len()) {
+                        let place = format!("{op}, requests sent ahead up to {}", tests[next].id);
+                        self.incidents.push((place, incident));
+                    }
+                }
+                Err(trouble) => {
+                    let alone = sent - next == 1;
+                    let incident = self.restart(trouble);
+                    if alone || !matches!(incident.trouble, Trouble::Ended(_) | Trouble::ClosedOutput) {
+                        suspected = None;
+                        outcomes.push(Outcome::Failed(incident));
+                        troubles += 1;
+                        done();
+                    } else {
+                        suspected = Some((incident, sent));
+                    }
+                    self.ahead = 1;
+                    sent = outcomes.len();
+                }
+            }
+        }
+        if let Some((incident, _)) = suspected {
+            self.incidents.push((op.to_owned(), incident));
+        }
+        (outcomes.len()..tests.len()).for_each(|_| done());
+        outcomes.resize(tests.len(), Outcome::NotRun);
+        outcomes
+    }
+
+    /// Ends the port and starts it again.
+    fn restart(&mut self, trouble: Trouble) -> Incident {
+        self.time_outs += usize::from(matches!(trouble, Trouble::TimeOut(_)));
+        let errors = self.process.take().map(Process::end).unwrap_or_default();
+        if self.time_outs >= TIME_OUTS {
+            self.given_up = Some(format!("{TIME_OUTS} answers did not come in time"));
+        } else {
+            self.restarts += 1;
+            match greet(self.command, self.limit) {
+                Ok((process, _)) => self.process = Some(process),
+                Err(message) => self.given_up = Some(format!("started again, {message}")),
+            }
+        }
+        Incident { trouble, errors }
+    }
+
+    /// Tells the port to stop.
+    pub(super) fn close(mut self) -> Ending {
+        if let Some(mut process) = self.process.take()
+            && let Err(trouble) = process.stop(&Request::Stop.line(), self.limit)
+        {
+            let errors = process.end();
+            self.incidents.push(("at the end".to_owned(), Incident { trouble, errors }));
+        }
+        Ending { restarts: self.restarts, incidents: self.incidents, given_up: self.given_up }
+    }
+}
+
+/// The command, as it was given.
+pub(super) fn command_line(command: &[OsString]) -> String {
+    let words: Vec<_> = command.iter().map(|word| word.to_string_lossy()).collect();
+    words.join(" ")
+}
+
+/// The request of a test.
+pub(super) fn request(op: &str, test: &Test, seq: u64) -> Request {
+    let Test { format, args, .. } = test;
+    Request::Run(Run { seq, op: op.to_owned(), format: format.clone(), args: args.clone() })
+}
+
+/// Starts a port and reads what it says of itself; or what is wrong.
+fn greet(command: &[OsString], limit: Duration) -> Result<(Process, Welcome), String> {
+    let mut process = Process::start(command).map_err(|error| format!("cannot be started: {error}"))?;
+    process.send(&Request::Start { protocol: VERSION }.line());
+    match process.receive(limit).map_err(|trouble| trouble.to_string()).and_then(|line| read_welcome(&line)) {
+        Ok(welcome) => Ok((process, welcome)),
+        Err(message) => Err(match process.end().last() {
+            Some(error) => format!("{message}; its standard error ends with: {error}"),
+            None => message,
+        }),
+    }
+}
+
+/// The answer to `start`, if this program can go on with it.
+fn read_welcome(line: &[u8]) -> Result<Welcome, String> {
+    let message: Value = serde_json::from_slice(line)
+        .map_err(|error| format!("its answer to start is not JSON ({error}): {}", shown(line)))?;
+    if let Some(error) = message.get("error") {
+        return Err(format!("it refuses protocol {VERSION}: {}", one_line(&error.to_string())));
+    }
+    match message.get("protocol") {
+        Some(version) if *version == VERSION => {}
+        Some(other) => return Err(format!("it speaks protocol {other}, not {VERSION}")),
+        None => return Err(format!("its answer to start has no \"protocol\": {}", shown(line))),
+    }
+    let welcome = Welcome::deserialize(&message)
+        .map_err(|error| format!("its answer to start cannot be read ({error}): {}", shown(line)))?;
+    if welcome.ops.is_empty() {
+        return Err("it has no operations: \"ops\" is empty".to_owned());
+    }
+    if let Some((pattern, claim)) = welcome.claims.iter().find(|(_, claim)| **claim < 0.0) {
+        return Err(format!("it claims {claim} ulp for {pattern}; a claim is not negative"));
+    }
+    Ok(welcome)
+}
+
+/// The answer that is due.
+fn read_answer(line: &[u8], due: u64) -> Result<Reply, Trouble> {
+    let malformed = || Trouble::Malformed(shown(line));
+    let answer: Answer = serde_json::from_slice(line).map_err(|_| malformed())?;
+    if answer.seq != Some(due) {
+        return Err(Trouble::WrongNumber { answered: answer.seq, due });
+    }
+    answer.reply().ok_or_else(malformed)
+}

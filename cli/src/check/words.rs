@@ -1,0 +1,83 @@
+//! Tests, answers and failures in words.
+
+use super::judge::{Answered, Judged};
+use super::vectors::{Test, Want};
+use super::{Cause, Kind, Wrong};
+use crate::hex_float;
+use crate::maps::one_line;
+use crate::output::{Number, short};
+use crate::protocol::Argument;
+
+/// So many floats of a list are shown.
+const SHOWN: usize = 6;
+
+/// The arguments by name, floats also as decimals.
+pub(super) fn arguments(test: &Test) -> String {
+    let named = test.args.iter().map(|(name, argument)| format!("{name} = {}", one_line(&value(argument))));
+    named.collect::<Vec<_>>().join(", ")
+}
+
+fn value(argument: &Argument) -> String {
+    match argument {
+        Argument::Float(text) => float(text),
+        Argument::List(texts) => list(texts, |text| float(text)),
+        Argument::Rows(rows) => list(rows, |row| list(row, |text| float(text))),
+    }
+}
+
+fn list<T>(items: &[T], item: impl Fn(&T) -> String) -> String {
+    let shown: Vec<_> = items.iter().take(SHOWN).map(item).collect();
+    let more = if items.len() > SHOWN { format!(", ... {} in all", items.len()) } else { String::new() };
+    format!("[{}{more}]", shown.join(", "))
+}
+
+/// A hexadecimal float and its decimals.
+fn float(text: &str) -> String {
+    match hex_float::parse::<f64>(text) {
+        Ok(x) if x.is_finite() => format!("{text} ({})", Number::given(x)),
+        _ => text.to_owned(),
+    }
+}
+
+/// The right answers.
+pub(super) fn wanted(test: &Test) -> String {
+    let wants = std::iter::once(&test.want).chain(&test.also).map(|want| match want {
+        Want::Enclosure { lo, hi } if lo == hi => lo.text.clone(),
+        Want::Enclosure { lo, hi } => format!("from {} to {}", lo.text, hi.text),
+        Want::Error { error } => format!("the error \"{error}\""),
+        Want::Count { count } => count.to_string(),
+    });
+    wants.collect::<Vec<_>>().join(", or ")
+}
+
+/// What was answered instead.
+pub(super) fn answered(wrong: &Wrong) -> String {
+    match wrong {
+        Wrong::Answer(Judged { answer, error, .. }) => {
+            let off = error.map(|error| format!(", {} ulp off", short(error.ulp))).unwrap_or_default();
+            match answer {
+                Answered::Float(_, text) => one_line(&float(text)) + &off,
+                Answered::Count(count) => count.to_string(),
+                Answered::Error(word) => format!("the error \"{}\"", one_line(word)),
+                Answered::NotOfFormat(text) => format!("{}, which the format does not have", one_line(text)),
+                Answered::Unreadable(text) => format!("{}, which is no result", one_line(text)),
+            }
+        }
+        Wrong::Trouble(incident) => incident.trouble.to_string(),
+        Wrong::NotRun(reason) => reason.clone(),
+    }
+}
+
+/// A cause with its evidence; of so many failures.
+pub(super) fn cause(cause: &Cause, failures: usize) -> String {
+    let Cause { kind, name, note, explained, tests, elsewhere, .. } = cause;
+    match (kind, elsewhere) {
+        (Kind::Trap, _) => {
+            format!("{name}: {note}: so are {explained} of {tests} answers that would show it")
+        }
+        (Kind::Flag, Some((failed, all))) => {
+            format!("{name}: {explained} of {tests} such tests fail, {failed} of {all} others: {note}")
+        }
+        _ => format!("{note}: {explained} of {failures} failures"),
+    }
+}

@@ -1,0 +1,100 @@
+//! The library as a port: it answers the requests of the [protocol](crate::protocol), whatever they are.
+
+use crate::hex_float;
+use crate::protocol::{Answer, Argument, Line, Reply, Request, Run, VERSION, Welcome, errors, read_line};
+use mean_information::Real;
+use mean_information::operations::{self, OPERATIONS, Operation, Refusal, Shape, Value};
+use serde::Deserialize;
+use serde_json::Value as Json;
+use std::io::{self, BufRead, Write};
+
+/// Longer requests are not read: some million cells.
+const LINE_LIMIT: usize = 1 << 26;
+
+/// Answers the requests of `input` until one says stop, or until there are no more.
+///
+/// # Errors
+/// Those of reading and writing.
+pub fn serve(mut input: impl BufRead, mut output: impl Write) -> io::Result<()> {
+    loop {
+        let answer = match read_line(&mut input, LINE_LIMIT)? {
+            Line::End => return Ok(()),
+            Line::TooLong(_) => {
+                input.skip_until(b'\n')?;
+                Some(malformed(None))
+            }
+            Line::Whole(line) => answer(&line),
+        };
+        let Some(answer) = answer else { return Ok(()) };
+        output.write_all((answer + "\n").as_bytes())?;
+        output.flush()?;
+    }
+}
+
+/// The answer to a line, in a line; none if it says stop.
+pub fn answer(line: &[u8]) -> Option<String> {
+    let Ok(message) = serde_json::from_slice::<Json>(line) else { return Some(malformed(None)) };
+    match Request::deserialize(&message) {
+        Ok(Request::Start { protocol: VERSION }) => Some(welcome().line()),
+        Ok(Request::Start { .. }) => Some(Answer::new(None, Reply::error(errors::PROTOCOL)).line()),
+        Ok(Request::Run(run)) => Some(Answer::new(run.seq, reply(&run)).line()),
+        Ok(Request::Stop) => None,
+        Err(_) => Some(malformed(message["seq"].as_u64())),
+    }
+}
+
+fn malformed(seq: Option<u64>) -> String {
+    Answer::new(seq, Reply::error(errors::MALFORMED)).line()
+}
+
+/// What the library says of itself as a port: both formats, all operations.
+pub fn welcome() -> Welcome {
+    Welcome {
+        protocol: VERSION,
+        name: "mean-information".to_owned(),
+        language: "Rust".to_owned(),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        formats: vec![f32::FORMAT.to_owned(), f64::FORMAT.to_owned()],
+        ops: OPERATIONS.iter().map(|operation| operation.name.to_owned()).collect(),
+        claims: [].into(),
+    }
+}
+
+/// What the library computes.
+pub fn reply(run: &Run) -> Reply {
+    let Some(operation) = operations::find(&run.op) else { return Reply::error(errors::OPERATION) };
+    match run.format.as_str() {
+        f32::FORMAT => computed::<f32>(operation, run),
+        f64::FORMAT => computed::<f64>(operation, run),
+        _ => Reply::error(errors::FORMAT),
+    }
+}
+
+fn computed<T: Real>(operation: &Operation, run: &Run) -> Reply {
+    let values =
+        operation.arguments.iter().map(|argument| value::<T>(run.args.get(argument.name)?, argument.shape));
+    let values: Option<Vec<_>> = values.collect();
+    let values = values.filter(|values| values.len() == run.args.len());
+    match values.map_or(Err(Refusal::Arguments), |values| operation.run(&values)) {
+        Ok(operations::Answer::Float(x)) => Reply::Result(hex_float::format(x).into()),
+        Ok(operations::Answer::Count(count)) => Reply::Result(count.into()),
+        Err(Refusal::Domain(_)) => Reply::error(errors::DOMAIN),
+        Err(Refusal::TooLarge(error)) => Reply::Skipped(error.to_string()),
+        Err(Refusal::Arguments) => Reply::error(errors::ARGUMENTS),
+    }
+}
+
+/// The argument as floats, if it has this shape and they are floats of the format.
+fn value<T: Real>(argument: &Argument, shape: Shape) -> Option<Value<T>> {
+    let floats =
+        |texts: &[String]| texts.iter().map(|text| hex_float::parse(text).ok()).collect::<Option<Vec<T>>>();
+    match (shape, argument) {
+        (Shape::Float, Argument::Float(text)) => hex_float::parse(text).ok().map(Value::Float),
+        (Shape::List, Argument::List(texts)) => floats(texts).map(Value::List),
+        (Shape::Rows, Argument::Rows(rows)) => {
+            rows.iter().map(|row| floats(row)).collect::<Option<_>>().map(Value::Rows)
+        }
+        (Shape::Rows, Argument::List(none)) if none.is_empty() => Some(Value::Rows(Vec::new())),
+        _ => None,
+    }
+}

@@ -1,0 +1,273 @@
+//! The messages of the port protocol, version 1: lines of JSON, an answer for each request, in the order of the requests.
+//!
+//! | request | answer |
+//! |---|---|
+//! | `{"cmd":"start","protocol":1}` | [`Welcome`] |
+//! | `{"cmd":"run","seq":1,"op":"cell.entropy","format":"f64","args":{"p":"0x1p-2"}}` | [`Answer`] |
+//! | `{"cmd":"stop"}` | none: the port ends |
+//!
+//! Floats are [hexadecimal floats](crate::hex_float) in strings, counts are JSON integers.
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::io::{self, BufRead, Read};
+
+/// The version.
+pub const VERSION: u64 = 1;
+
+/// What a port is asked.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "cmd", rename_all = "lowercase")]
+pub enum Request {
+    /// Which protocol is spoken; the port says what it can do.
+    Start {
+        /// [`VERSION`].
+        protocol: u64,
+    },
+    /// One operation.
+    Run(Run),
+    /// That was all.
+    Stop,
+}
+
+impl Request {
+    /// The request in a line.
+    pub fn line(&self) -> String {
+        to_line(self)
+    }
+}
+
+/// One operation, to be computed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Run {
+    /// The number that the answer repeats.
+    pub seq: u64,
+    /// The operation.
+    pub op: String,
+    /// `f32` or `f64`.
+    pub format: String,
+    /// The arguments by name.
+    pub args: Arguments,
+}
+
+/// Arguments by name.
+pub type Arguments = BTreeMap<String, Argument>;
+
+/// An argument, of hexadecimal floats.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Argument {
+    /// One float.
+    Float(String),
+    /// Floats.
+    List(Vec<String>),
+    /// Lists of floats; none of them reads as an empty list.
+    Rows(Vec<Vec<String>>),
+}
+
+/// What a port says of itself: the answer to [`Request::Start`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Welcome {
+    /// The version it speaks.
+    pub protocol: u64,
+    /// Its name.
+    #[serde(default)]
+    pub name: String,
+    /// What it is written in.
+    #[serde(default)]
+    pub language: String,
+    /// Its own version.
+    #[serde(default)]
+    pub version: String,
+    /// The formats it computes in.
+    pub formats: Vec<String>,
+    /// The operations it has.
+    pub ops: Vec<String>,
+    /// How many ulp its results may be off, where that is more than the contract allows, by operation or by a pattern
+    /// with `*`.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub claims: BTreeMap<String, f64>,
+}
+
+impl Welcome {
+    /// In a line.
+    pub fn line(&self) -> String {
+        to_line(self)
+    }
+}
+
+/// The answer to [`Request::Run`]: one of result, error and skipped.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Answer {
+    /// The number of the request; none if the request was not understood that far.
+    pub seq: Option<u64>,
+    /// A hexadecimal float in a string, or an integer.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub result: Option<Value>,
+    /// Why there is none, in a word: [`errors`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub error: Option<String>,
+    /// Why it was not computed, in words.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub skipped: Option<String>,
+}
+
+impl Answer {
+    /// A result, an error or a reason why it was skipped.
+    pub fn new(seq: impl Into<Option<u64>>, reply: Reply) -> Self {
+        let mut answer = Self { seq: seq.into(), result: None, error: None, skipped: None };
+        match reply {
+            Reply::Result(value) => answer.result = Some(value),
+            Reply::Error(word) => answer.error = Some(word),
+            Reply::Skipped(reason) => answer.skipped = Some(reason),
+        }
+        answer
+    }
+
+    /// The one of the three that is there, unless there are several or none.
+    pub fn reply(self) -> Option<Reply> {
+        match (self.result, self.error, self.skipped) {
+            (Some(value), None, None) => Some(Reply::Result(value)),
+            (None, Some(word), None) => Some(Reply::Error(word)),
+            (None, None, Some(reason)) => Some(Reply::Skipped(reason)),
+            _ => None,
+        }
+    }
+
+    /// In a line.
+    pub fn line(&self) -> String {
+        to_line(self)
+    }
+}
+
+/// What an answer says.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Reply {
+    /// A float as a string, or a count.
+    Result(Value),
+    /// A word of [`errors`].
+    Error(String),
+    /// A reason.
+    Skipped(String),
+}
+
+impl Reply {
+    /// An error, by its word.
+    pub fn error(word: &str) -> Self {
+        Self::Error(word.to_owned())
+    }
+}
+
+/// The words that stand for errors.
+pub mod errors {
+    /// An argument lies outside the domain of the operation.
+    pub const DOMAIN: &str = "domain";
+    /// No such operation.
+    pub const OPERATION: &str = "unknown-operation";
+    /// Neither `f32` nor `f64`.
+    pub const FORMAT: &str = "unknown-format";
+    /// Not the arguments of the operation: one is missing, too many, of another shape, or no float of the format.
+    pub const ARGUMENTS: &str = "arguments";
+    /// Not a request.
+    pub const MALFORMED: &str = "malformed";
+    /// Another version of the protocol is asked for.
+    pub const PROTOCOL: &str = "protocol";
+}
+
+/// JSON without the end of the line.
+fn to_line(message: &impl Serialize) -> String {
+    // Strings, numbers and lists under string keys: serialisation cannot fail.
+    serde_json::to_string(message).unwrap_or_default()
+}
+
+/// A line that was read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Line {
+    /// Without its end; the last one may have had none.
+    Whole(Vec<u8>),
+    /// The first bytes of one that is longer than allowed; the rest is not read yet.
+    TooLong(Vec<u8>),
+    /// There are no more.
+    End,
+}
+
+/// The next line, of at most `limit` bytes, which is all that is ever held of it.
+///
+/// # Errors
+/// Those of the reader.
+pub fn read_line(reader: &mut impl BufRead, limit: usize) -> io::Result<Line> {
+    let mut line = Vec::new();
+    reader.by_ref().take(limit as u64 + 1).read_until(b'\n', &mut line)?;
+    if line.is_empty() {
+        return Ok(Line::End);
+    }
+    let ended = line.pop_if(|last| *last == b'\n').is_some();
+    if !ended && line.len() > limit {
+        return Ok(Line::TooLong(line));
+    }
+    line.pop_if(|last| *last == b'\r');
+    Ok(Line::Whole(line))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn messages_are_those_of_the_contract() {
+        for line in [
+            r#"{"cmd":"start","protocol":1}"#,
+            r#"{"cmd":"run","seq":1,"op":"cell.information","format":"f64","args":{"p":"0x1.8p-2"}}"#,
+            r#"{"cmd":"run","seq":2,"op":"a","format":"f32","args":{"cells":["0x0p+0"],"rows":[["nan"],[]]}}"#,
+            r#"{"cmd":"stop"}"#,
+        ] {
+            let request: Request = serde_json::from_str(line).unwrap();
+            assert_eq!(request.line(), line);
+        }
+        for line in [
+            r#"{"seq":1,"result":"0x1p-1"}"#,
+            r#"{"seq":1,"result":3}"#,
+            r#"{"seq":1,"error":"domain"}"#,
+            r#"{"seq":1,"skipped":"too large"}"#,
+            r#"{"seq":null,"error":"malformed"}"#,
+        ] {
+            let answer: Answer = serde_json::from_str(line).unwrap();
+            assert_eq!(answer.line(), line);
+            assert_eq!(Answer::new(answer.seq, answer.clone().reply().unwrap()), answer);
+        }
+        for line in [r#"{"seq":1}"#, r#"{"seq":1,"result":null}"#, r#"{"seq":1,"result":3,"error":"domain"}"#]
+        {
+            assert_eq!(serde_json::from_str::<Answer>(line).unwrap().reply(), None, "{line}");
+        }
+    }
+
+    #[test]
+    fn a_welcome_may_claim_and_may_leave_out_its_names() {
+        let line =
+            r#"{"protocol":1,"formats":["f64"],"ops":["cell.entropy"],"claims":{"cell.*":4,"map.*":1e1}}"#;
+        let welcome: Welcome = serde_json::from_str(line).unwrap();
+        assert_eq!(welcome.claims.values().copied().collect::<Vec<_>>(), [4.0, 10.0]);
+        assert_eq!(welcome.name, "");
+        assert!(serde_json::from_str::<Welcome>(r#"{"protocol":1,"formats":["f64"]}"#).is_err());
+    }
+
+    #[test]
+    fn lines_are_read_up_to_the_limit() {
+        let text = "one\r\n\nthree\nlonger\nend";
+        let lines = |limit| {
+            let mut reader = io::BufReader::with_capacity(2, text.as_bytes());
+            let mut lines = Vec::new();
+            loop {
+                match read_line(&mut reader, limit).unwrap() {
+                    Line::End => return lines,
+                    line => lines.push(line),
+                }
+            }
+        };
+        let whole = |text: &str| Line::Whole(text.as_bytes().to_vec());
+        assert_eq!(lines(6), ["one", "", "three", "longer", "end"].map(whole));
+        let long = Line::TooLong(b"longer".to_vec());
+        assert_eq!(lines(5), [whole("one"), whole(""), whole("three"), long, whole(""), whole("end")]);
+    }
+}

@@ -1,0 +1,136 @@
+//! Ports that break the protocol: each ends in a report that names the request, and the run is carried on.
+
+use crate::Test;
+use crate::fixture::Vectors;
+use std::path::Path;
+use std::thread;
+use std::time::Duration;
+
+pub(crate) const TESTS: &[Test] = &[
+    ("troubles_with_one_request", troubles_with_one_request),
+    ("a_port_that_reads_ahead_ends", a_port_that_reads_ahead_ends),
+    ("a_port_that_ends_only_when_asked_ahead", a_port_that_ends_only_when_asked_ahead),
+    ("a_port_that_never_flushes", a_port_that_never_flushes),
+    ("troubles_at_the_end", troubles_at_the_end),
+    ("ports_that_are_not_checked", ports_that_are_not_checked),
+    ("what_a_port_leaves_behind_is_ended", what_a_port_leaves_behind_is_ended),
+];
+
+/// Long enough for an answer on a busy machine, short enough to wait for one that never comes.
+const SHORT: [&str; 2] = ["--timeout", "3"];
+
+/// The port misbehaves at request 7 each time it is asked it; all others are answered.
+fn troubles_with_one_request() {
+    let vectors = Vectors::new();
+    for (fault, what) in [
+        ("hangs", "no answer within 3 s"),
+        ("floods", "'all work and no play"),
+        ("floods-stderr", "stderr: working"),
+        ("garbage", "no answer: 'computing \\u{1b}[31mcell"),
+        ("debris", "a line that is no answer"),
+        ("no-utf8", "a line that is no answer"),
+        ("nested", "a line that is no answer: '[[["),
+        ("closes", "closed its standard output"),
+        ("exits-3", "it ended (exit status: 3)"),
+        ("exits-3", "stderr: ZeroDivisionError: division by zero"),
+        ("cuts", "a line that is no answer"),
+        ("no-number", "an answer without number where that to request 7 was due"),
+        ("both", "a line that is no answer"),
+        ("reorders", "the answer to request 8 where that to 7 was due"),
+    ] {
+        if cfg!(not(unix)) && fault == "closes" {
+            continue;
+        }
+        let table = vectors.table(fault, &SHORT, "43 passed, 1 failed, 0 skipped");
+        let report = table.split("trouble: test-7\n").nth(1).unwrap_or_else(|| panic!("{fault}: {table}"));
+        assert!(report.contains(what), "{fault}: {table}");
+        assert!(table.contains("crashes, hangs or breaks the protocol"), "{fault}: {table}");
+    }
+    // Here the first of the answers is right; the next is not due.
+    let table = vectors.table("floods-lines", &SHORT, "43 passed, 1 failed, 0 skipped");
+    assert!(table.contains("the answer to request 7 where that to 8 was due"), "{table}");
+}
+
+/// Request 12 ends it while 2 is unanswered: that is found out by asking one at a time.
+fn a_port_that_reads_ahead_ends() {
+    let table = Vectors::new().table("exits-reading", &SHORT, "43 passed, 1 failed, 0 skipped");
+    assert!(table.contains("trouble: test-12\n") && table.contains("stderr: reading failed"), "{table}");
+}
+
+fn a_port_that_ends_only_when_asked_ahead() {
+    let table = Vectors::new().table("exits-ahead", &SHORT, "44 passed, 1 failed, 0 skipped");
+    assert!(table.contains("requests sent ahead up to test-"), "{table}");
+}
+
+fn a_port_that_never_flushes() {
+    let table =
+        Vectors::new().table("never-flushes", &["--timeout", "0.5"], "0 passed, 44 failed, 0 skipped");
+    for part in [
+        "does it flush every answer?",
+        "given up",
+        "5 answers did not come in time",
+        "not run after too much trouble: 35 of 40",
+    ] {
+        assert!(table.contains(part), "{part}: {table}");
+    }
+}
+
+fn troubles_at_the_end() {
+    let vectors = Vectors::new();
+    for (fault, what) in [
+        ("ignores-stop", "it ran on for 3 s after it was told to stop"),
+        ("talks-at-stop", "a line after it was told to stop: 'bye'"),
+        ("exits-3-at-stop", "it ended (exit status: 3)"),
+    ] {
+        let table = vectors.table(fault, &SHORT, "44 passed, 1 failed, 0 skipped");
+        assert!(table.contains("trouble at the end: ") && table.contains(what), "{table}");
+    }
+}
+
+fn ports_that_are_not_checked() {
+    let vectors = Vectors::new();
+    for (fault, what) in [
+        ("dies", "cannot find numpy"),
+        ("dies", "exit status: 4"),
+        ("mute", "no answer within 3 s"),
+        ("protocol-2", "speaks protocol 2, not 1"),
+        ("refuses", "refuses protocol 1: \"protocol\""),
+        ("garbled", "not JSON"),
+        ("no-protocol", "has no \"protocol\""),
+        ("no-list", "cannot be read"),
+        ("no-ops", "\"ops\" is empty"),
+        ("strange-ops", "cell.entopy"),
+        ("no-formats", "f16"),
+        ("negative-claim", "a claim is not negative"),
+    ] {
+        let line = vectors.refusal(fault, &SHORT);
+        assert!(line.contains(what) && line.contains(fault), "{fault}: {line}");
+    }
+}
+
+/// A process that holds the pipes of a port that has ended cannot be waited for; it goes with the port.
+fn what_a_port_leaves_behind_is_ended() {
+    if !Path::new("/proc/self").exists() {
+        return;
+    }
+    let vectors = Vectors::new();
+    let number = vectors.folder.text_path("number");
+    let mut command = crate::common::meaninfo();
+    command.args(["check", "--vectors"]).arg(vectors.folder.path("")).args(["--timeout", "1", "--"]);
+    command.arg(std::env::current_exe().unwrap()).args([crate::fixture::AS_PORT, "orphan", &number]);
+    let output = command.timeout(Duration::from_secs(120)).output().unwrap();
+    assert_eq!(output.status.code(), Some(1), "{output:?}");
+    let number = std::fs::read_to_string(number).unwrap();
+    let runs = || {
+        let state = std::fs::read_to_string(format!("/proc/{number}/stat")).unwrap_or_default();
+        state.rsplit(')').next().is_some_and(|rest| !rest.is_empty() && !rest.trim_start().starts_with('Z'))
+    };
+    // The system takes a moment.
+    for _ in 0..100 {
+        if !runs() {
+            return;
+        }
+        thread::sleep(Duration::from_millis(50));
+    }
+    panic!("{number} runs on");
+}

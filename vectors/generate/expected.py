@@ -109,8 +109,10 @@ def known_mistakes(weights, particles, format):
             found["WeightsSquared"] = mean_of(pooled([a * a for a in w]))
         if max(weights) < 100:
             found["WeightsExponentiated"] = mean_of([half if all(p == 0.5 for p in c) else q for c, q in zip(zip(*particles), pooled([a.exp() for a in w]))])
-        sums = [p * weight for p in cells]
-        found["WeightsNotNormalised"] = traps.NAN if any(p > 1 for p in sums) else mean_of(sums)
+        if abs(weight - 1) > 2.0**-20:
+            # Weights normalised in floats show another mistake, if any.
+            sums = [p * weight for p in cells]
+            found["WeightsNotNormalised"] = traps.NAN if any(p > 1 for p in sums) else mean_of(sums)
         alone = [[(a, p) for a, p in zip(w, column) if p != half] for column in columns]
         found["UnknownSkipped"] = mean_of([sum((a * p for a, p in c), arb(0)) / sum((a for a, _ in c), arb(0))
                                            for c in alone if c and sum((a for a, _ in c), arb(0)) > 0])

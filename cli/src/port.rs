@@ -15,9 +15,13 @@ const LINE_LIMIT: usize = 1 << 26;
 ///
 /// # Errors
 /// Those of reading and writing.
-pub fn serve(mut input: impl BufRead, mut output: impl Write) -> io::Result<()> {
+pub fn serve(input: impl BufRead, output: impl Write) -> io::Result<()> {
+    serve_lines(input, output, LINE_LIMIT)
+}
+
+fn serve_lines(mut input: impl BufRead, mut output: impl Write, limit: usize) -> io::Result<()> {
     loop {
-        let answer = match read_line(&mut input, LINE_LIMIT)? {
+        let answer = match read_line(&mut input, limit)? {
             Line::End => return Ok(()),
             Line::TooLong(_) => {
                 input.skip_until(b'\n')?;
@@ -96,5 +100,19 @@ fn value<T: Real>(argument: &Argument, shape: Shape) -> Option<Value<T>> {
         }
         (Shape::Rows, Argument::List(none)) if none.is_empty() => Some(Value::Rows(Vec::new())),
         _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_that_is_too_long_is_one_request() {
+        let input = format!("{}\n{{\"seq\":3}}\n", "x".repeat(1000));
+        let mut output = Vec::new();
+        serve_lines(input.as_bytes(), &mut output, 100).unwrap();
+        let answers = "{\"seq\":null,\"error\":\"malformed\"}\n{\"seq\":3,\"error\":\"malformed\"}\n";
+        assert_eq!(String::from_utf8(output).unwrap(), answers);
     }
 }

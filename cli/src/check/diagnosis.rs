@@ -176,13 +176,18 @@ fn is_caught(trap: &Trap, answer: &Answered) -> bool {
     match (trap, answer) {
         (Trap::Count(trap), Answered::Count(count)) => trap == count,
         (Trap::Text(name), Answered::Error(error)) => name == error,
-        (Trap::Text(text), Answered::Float(x, _)) => hex_float::parse::<f64>(text).is_ok_and(|trap| {
-            trap == *x
-                || trap.is_nan() && x.is_nan()
-                || (x - trap).abs() <= TRAP_WIDTH * trap.abs() && trap.is_finite()
-        }),
+        (Trap::Text(trap), Answered::Float(_, text) | Answered::NotOfFormat(text)) => {
+            let [trap, answer] = [trap, text].map(|text| hex_float::parse::<f64>(text).ok());
+            trap.zip(answer).is_some_and(|(trap, answer)| is_near(trap, answer))
+        }
         _ => false,
     }
+}
+
+fn is_near(trap: f64, answer: f64) -> bool {
+    trap == answer
+        || trap.is_nan() && answer.is_nan()
+        || trap.is_finite() && (answer - trap).abs() <= TRAP_WIDTH * trap.abs()
 }
 
 /// About how many failures a trap explains, also among those of tests that lack it because enough have it.
@@ -222,4 +227,120 @@ fn flag(cases: &[Case<'_>], name: &str, note: &str) -> Option<Candidate> {
         elsewhere: Some(elsewhere),
         weight: FLAG_WEIGHT,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::judge::{NEAREST, judge};
+    use super::*;
+    use crate::protocol::Reply;
+    use serde_json::json;
+
+    /// Tests in f64 whose exact results are `wants`, answered with `answers`; flags and traps of each by its index.
+    fn causes(
+        wants: &[f64],
+        answers: &[f64],
+        flags: fn(usize) -> Vec<&'static str>,
+        traps: fn(usize) -> Vec<(&'static str, f64)>,
+    ) -> Vec<Cause> {
+        let test = |(index, want): (usize, &f64)| {
+            let traps =
+                traps(index).into_iter().map(|(name, x)| (name.to_owned(), hex_float::format(x).into()));
+            let want = format!("{want:e}");
+            json!({"id": index.to_string(), "format": "f64", "args": {}, "want": {"lo": want, "hi": want},
+                "flags": flags(index), "traps": traps.collect::<serde_json::Map<String, serde_json::Value>>()})
+        };
+        let tests: Vec<_> = wants.iter().enumerate().map(test).collect();
+        let vectors: Vectors = serde_json::from_value(json!({
+            "op": "", "tolerance_ulp": 0.5, "flags": {"Left": "", "Random": ""},
+            "traps": {"A": "", "B": "", "C": ""}, "tests": tests,
+        }))
+        .unwrap();
+        let verdict = |(test, x): (&Test, &f64)| {
+            let judged = judge(test, NEAREST, &Reply::Result(hex_float::format(*x).into()));
+            if judged.right { Verdict::Passed(judged) } else { Verdict::Failed(Wrong::Answer(judged)) }
+        };
+        let verdicts: Vec<_> = vectors.tests.iter().zip(answers).map(verdict).collect();
+        diagnose(&vectors, &verdicts)
+    }
+
+    /// Results without a pattern, from 1/4 to 3/4.
+    fn wants(n: u32) -> Vec<f64> {
+        (0..n).map(|i| 0.25 + f64::from(i * 37 % 101) / 202.0).collect()
+    }
+
+    fn names(causes: &[Cause]) -> Vec<&str> {
+        causes.iter().map(|cause| cause.name.as_str()).collect()
+    }
+
+    /// A wrong answer that follows no pattern.
+    fn astray(i: usize, x: f64) -> f64 {
+        x * (1.01 + 0.013 * (i * 29 % 31) as f64)
+    }
+
+    #[test]
+    fn a_flag_says_something_if_its_tests_fail_more_often() {
+        let wants = wants(60);
+        let answers = |failing: fn(usize) -> bool| -> Vec<f64> {
+            let answer = |(i, x): (usize, &f64)| if failing(i) { astray(i, *x) } else { *x };
+            wants.iter().enumerate().map(answer).collect()
+        };
+        let flags = |i: usize| if i < 20 { vec!["Left", "Random"] } else { vec!["Random"] };
+        let left = causes(&wants, &answers(|i| i < 18 || i == 40), flags, |_| Vec::new());
+        assert_eq!(names(&left), ["Left"]);
+        assert_eq!((left[0].explained, left[0].tests, left[0].elsewhere), (18, 20, Some((1, 40))));
+        // As often here as there.
+        assert_eq!(names(&causes(&wants, &answers(|i| i % 2 == 0), flags, |_| Vec::new())), [] as [&str; 0]);
+    }
+
+    /// A and B have as many tests as any trap, C has fewer: it could have had others, but its mistake is not theirs.
+    #[test]
+    fn a_trap_cut_off_may_explain_the_rest() {
+        let wants = wants(60);
+        let wrong: Vec<f64> = wants.iter().enumerate().map(|(i, x)| astray(i, *x)).collect();
+        let traps = |i: usize| {
+            let right = 0.25 + (i as u32 * 37 % 101) as f64 / 202.0;
+            let mut traps = Vec::new();
+            if i.is_multiple_of(2) {
+                traps.push(("A", astray(i, right)));
+            } else {
+                traps.push(("B", right / 7.0));
+            }
+            if i < 10 {
+                traps.push(("C", astray(i, right)));
+            }
+            traps
+        };
+        let causes = causes(&wants, &wrong, |_| vec!["Random"], traps);
+        assert_eq!(names(&causes), ["A", "C"]);
+        assert_eq!((causes[0].score, causes[0].explained, causes[0].redundant), (1.0, 30, false));
+        assert!(causes[1].redundant && (0.58..0.59).contains(&causes[1].score), "{causes:?}");
+    }
+
+    #[test]
+    fn causes_that_cannot_be_told_apart_are_both_said() {
+        let wants = wants(20);
+        let wrong: Vec<f64> = wants.iter().enumerate().map(|(i, x)| astray(i, *x)).collect();
+        let traps = |i: usize| {
+            let x = astray(i, 0.25 + (i as u32 * 37 % 101) as f64 / 202.0);
+            vec![("A", x * (1.0 + 1e-7)), ("B", x), ("C", x * (1.0 + 1e-5))]
+        };
+        let causes = causes(&wants, &wrong, |_| vec!["Random"], traps);
+        assert_eq!(names(&causes), ["A", "B"]);
+        assert!(causes.iter().all(|cause| cause.score == 1.0 && !cause.redundant));
+    }
+
+    /// Small errors among large ones, a value that occurs now and then: neither is a cause.
+    #[test]
+    fn patterns_of_few_are_none() {
+        let wants = wants(60);
+        let answer = |(i, x): (usize, &f64)| match i {
+            0..10 => x.next_up().next_up(),
+            10..15 => x * (1.0 + 1e-9),
+            15..20 => 0.9,
+            _ => astray(i, *x),
+        };
+        let answers: Vec<f64> = wants.iter().enumerate().map(answer).collect();
+        assert_eq!(names(&causes(&wants, &answers, |_| Vec::new(), |_| Vec::new())), [] as [&str; 0]);
+    }
 }

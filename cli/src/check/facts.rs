@@ -60,7 +60,7 @@ const PLAIN_FACTS: &[PlainFact] = &[
             answered(case, |answer| match (answer, &case.test.want) {
                 (Answered::Unreadable(_), _) => true,
                 (Answered::Float(..), want) => matches!(want, Want::Count { .. }),
-                (Answered::Count(_), want) => !matches!(want, Want::Count { .. }),
+                (Answered::Count(_), want) => matches!(want, Want::Enclosure { .. }),
                 _ => false,
             })
         },

@@ -198,6 +198,8 @@ mod tests {
             ("0.1", 0.1),
             // A quarter of the spacing below 1: nearer to 1 than the midpoint, which the float below is not.
             ("0.99999999999999997224442438437108648940920829772949", 1.0),
+            // Three quarters of it: nearer to the float below, for there the spacing is half as large.
+            ("0.99999999999999991673327315311325946822762489318847", 1.0_f64.next_down()),
             ("-0.1", -0.1),
         ] {
             assert!(is_nearest(right, exact), "{exact}");
@@ -224,9 +226,11 @@ mod tests {
     /// Above 0.75 the spacing is 2^-53; the exact number is 0.75 + 3 2^-55.
     #[test]
     fn a_tolerance_counts_spacings_at_the_answer() {
-        let exact = "0.750000000000000083266726846886740531772375106811523437";
+        let exact = "0.7500000000000000832667268468867405317723751068115234375";
         let allowed = |x: f64, tolerance| judged(x, (exact, exact), tolerance).right;
         assert!(allowed(0.75, 0.75) && !allowed(0.75, 0.7499));
+        let second = 0.75_f64.next_up().next_up();
+        assert!(allowed(second, 1.25) && !allowed(second, 1.2499));
         // The answer's own spacing: 1 below 0.75 it is 2^-53, too; at 1 it is 2^-52.
         assert!(judged(1.0_f64, ("0.9999999999999995", "0.9999999999999995"), 2.2519).right);
         assert!(!judged(1.0_f64, ("0.9999999999999995", "0.9999999999999995"), 2.2517).right);
@@ -244,6 +248,7 @@ mod tests {
         let error = |x: f64, exact: &str| judged(x, (exact, exact), 2.0).error.unwrap();
         assert_eq!(error(0.5, "0.5").ulp, 0.0);
         assert_eq!(error(0.75, "0.625"), Deviation { ulp: 0.125 * TO_53, relative: 0.2, exact: 0.625 });
+        assert_eq!(error(0.4375, "0.625").ulp, 0.1875 * 2.0 * TO_53);
         // Less than half of the exact result: in its spacings.
         assert_eq!(error(0.0, "0.75").ulp, 0.75 * TO_53);
         assert_eq!((error(0.0, "1e-330").relative, error(0.0, "0").relative), (1.0, 0.0));

@@ -7,7 +7,7 @@ use std::collections::VecDeque;
 use std::ffi::OsString;
 use std::fmt;
 use std::io::{self, BufReader, Read, Write};
-use std::process::{Child, ChildStderr, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
+use std::process::{Child, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender, SyncSender};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
@@ -246,12 +246,35 @@ fn read_lines(stdout: ChildStdout, lines: &SyncSender<Line>) {
     }
 }
 
-fn keep_end(mut stderr: ChildStderr, kept: &Mutex<VecDeque<u8>>) {
+fn keep_end(mut stderr: impl Read, kept: &Mutex<VecDeque<u8>>) {
     let mut buffer = [0; 4096];
     while let Ok(n @ 1..) = stderr.read(&mut buffer) {
         let mut kept = lock(kept);
         kept.extend(&buffer[..n]);
         let surplus = kept.len().saturating_sub(ERRORS_KEPT);
         kept.drain(..surplus);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_the_end_of_standard_error_is_kept() {
+        let lines: Vec<_> = (0..100_000).map(|i| format!("line {i}")).collect();
+        let text = lines.join("\n") + "\n\n\u{1b}[31mend\r\n";
+        let kept = Mutex::new(VecDeque::new());
+        keep_end(text.as_bytes(), &kept);
+        let kept: Vec<u8> = lock(&kept).iter().copied().collect();
+        assert_eq!(kept.len(), ERRORS_KEPT);
+        let lines = last_lines(&String::from_utf8(kept).unwrap());
+        assert_eq!(lines, ["line 99996", "line 99997", "line 99998", "line 99999", "\\u{1b}[31mend"]);
+    }
+
+    #[test]
+    fn a_line_is_shown_in_one_line_and_in_part() {
+        assert_eq!(shown(b"a\tb\xff"), "'a\\tb\u{fffd}'");
+        assert_eq!(shown(&[b'x'; 1000]), format!("'{}...'", "x".repeat(LINE_SHOWN)));
     }
 }

@@ -57,7 +57,7 @@ pub(crate) fn serve(fault: &str, rest: &[String]) {
                 if fault.starts_with("exits-") && run.seq == 2 {
                     thread::sleep(SOON);
                 }
-                if run.seq == AT {
+                if run.seq == AT || fault == "exits-always" {
                     misbehave(fault, run);
                 }
                 let answer = Answer::new(run.seq, reply(fault, run));
@@ -137,7 +137,7 @@ fn misbehave(fault: &str, run: &Run) {
             rustix::stdio::dup2_stdout(null).unwrap();
             sleep();
         }
-        "exits-3" => {
+        "exits-3" | "exits-always" => {
             eprintln!("Traceback (most recent call last):\nZeroDivisionError: division by zero");
             exit(3);
         }

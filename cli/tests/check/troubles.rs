@@ -11,6 +11,7 @@ pub(crate) const TESTS: &[Test] = &[
     ("a_port_that_reads_ahead_ends", a_port_that_reads_ahead_ends),
     ("a_port_that_ends_only_when_asked_ahead", a_port_that_ends_only_when_asked_ahead),
     ("a_port_that_never_flushes", a_port_that_never_flushes),
+    ("a_port_that_ends_at_every_request", a_port_that_ends_at_every_request),
     ("troubles_at_the_end", troubles_at_the_end),
     ("ports_that_are_not_checked", ports_that_are_not_checked),
     ("what_a_port_leaves_behind_is_ended", what_a_port_leaves_behind_is_ended),
@@ -73,6 +74,13 @@ fn a_port_that_never_flushes() {
     ] {
         assert!(table.contains(part), "{part}: {table}");
     }
+}
+
+/// An operation is given up, the next one is begun.
+fn a_port_that_ends_at_every_request() {
+    let table = Vectors::new().table("exits-always", &SHORT, "0 passed, 44 failed, 0 skipped");
+    assert!(table.contains("not run after too much trouble: 20 of 40 failures"), "{table}");
+    assert!(table.contains("map.observed: 4 of 4 failed") && !table.contains("given up"), "{table}");
 }
 
 fn troubles_at_the_end() {

@@ -74,13 +74,12 @@ impl Fault<'_> {
     /// What is wrong with the verdict on the port with this fault.
     fn unnamed(&self, file: &Path) -> Option<String> {
         let (status, verdict) = check(&["--ops", self.ops], file);
-        let causes = |operation: &Value| -> Vec<String> {
-            let causes = operation["causes"].as_array().unwrap();
-            causes.iter().map(|cause| cause["name"].as_str().unwrap().to_owned()).collect()
-        };
-        let found: Vec<_> =
-            verdict["operations"].as_array().unwrap().iter().flat_map(causes).take(4).collect();
-        let is_named = found.first().is_some_and(|first| self.causes.contains(&first.as_str()));
+        let operations = verdict["operations"].as_array().unwrap();
+        let causes: Vec<_> = operations.iter().flat_map(|o| o["causes"].as_array().unwrap()).collect();
+        // Causes of one score cannot be told apart from the answers: the report says them all.
+        let first = causes.iter().take_while(|cause| cause["score"] == causes[0]["score"]);
+        let is_named = first.into_iter().any(|cause| self.causes.contains(&cause["name"].as_str().unwrap()));
+        let found: Vec<_> = causes.iter().take(4).map(|cause| cause["name"].as_str().unwrap()).collect();
         (status != 1 || !is_named).then(|| {
             format!(
                 "{} ({}): wanted {:?}, found {found:?}, exit status {status}",

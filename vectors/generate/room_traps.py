@@ -120,6 +120,7 @@ def known_mistakes(kind, z, s, h, x, y, limits):
         found["AreaWeighted"] = mean([(p, n * rho) for (rho, n), (p, _) in zip(own, cells)])
         found["BeyondReachCounted"] = total / (math.floor(reach / h) + 1)
         found["AreaForRadial"] = limits[1]
+        found["FirstCellDropped"], found["LastCellDropped"] = mean(cells[1:]), mean(cells[:-1])
         return found
     found["SampledAtStart"] = mean(occupancies(squares(h, reach, x + 0.5, y + 0.5)))
     found["PolarForCartesian"] = mean(occupancies(rings(h, reach)))

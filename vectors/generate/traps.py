@@ -95,6 +95,7 @@ ENTROPY = {
     "Gini": lambda p: 4 * p * (1 - p),
     "OneTerm": lambda p: -xlog2(p),
     "OtherTerm": lambda p: -xlog2(1 - p),
+    "SignOfTerm": lambda p: xlog2(1 - p) - xlog2(p),
 }
 INFORMATION = {
     "Nats": lambda p: (1 - entropy(p)) * ln2(),
@@ -209,6 +210,8 @@ def of_log_odds(kind, l, format, result):
             found["Complement"] = 1 - right(p)
             if kind == "information" and abs(l) < 2.0**-6:
                 found["Cancelled"] = arb(nearest(1 - arb(float_entropy(nearest(p, format), format)), format))
+            log_term = (-abs(x)).exp().log1p() / ln2()
+            found["LogTermOnly"] = log_term if kind == "entropy" else 1 - log_term
         if l > {"f64": 709.8, "f32": 88.8}[format]:
             found["OddsOverflow"] = NAN
         if math.isinf(l) and kind != "occupancy":
@@ -272,13 +275,15 @@ def map_values(op, cells):
         "FreeOnly": [bool(p < half) for p in cells],
         "ZeroSkipped": [k and p != 0 for p, k in zip(cells, observed)],
         "CertainSkipped": [k and p not in (0, 1) for p, k in zip(cells, observed)],
+        "FirstCellDropped": [False, *observed[1:]],
+        "LastCellDropped": [*observed[:-1], False],
         "UnknownCounted": [True] * n,
         "UnobservedForObserved": [not k for k in observed],
     }
     if op == "map.observed":
         found = {name: sum(keep) for name, keep in subsets.items()}
         for name, store in STORED.items():
-            if not name.startswith("Clamped"):
+            if not name.startswith("Clamped") and name != "Byte":  # whose only effect is that of UnknownCounted
                 found[name] = sum(p != half for p in of_cell(name, store))
         return found
     kind = "entropy" if op == "map.entropy" else "information"
@@ -300,6 +305,8 @@ def map_values(op, cells):
     if mean:
         found |= {name: ratio(only(keep)[1], sum(keep)) for name, keep in subsets.items() if name != "UnobservedForObserved"}
         del found["UnknownCounted"]
+        for name in ("FirstCellDropped", "LastCellDropped"):
+            found[name] = found[name] if any(subsets[name]) else arb(0)
         found["DividedByAll"] = ratio(total["I"], n)
         found["UnknownInformative"] = ratio(total["I"] + (n - seen), n)
         found["SumForMean"] = total["I"]
@@ -310,11 +317,13 @@ def map_values(op, cells):
         return found
     if kind == "information":
         keep = ("MrptThreshold", "ThresholdHundredth", "ThresholdRos", "OccupiedOnly", "FreeOnly", "ZeroSkipped", "CertainSkipped")
+        keep += ("FirstCellDropped", "LastCellDropped")
         found |= {name: only(subsets[name])[1] for name in keep}
         found["UnknownInformative"] = total["I"] + (n - seen)
         found["MeanForSum"] = ratio(total["I"], seen) if seen else None
     else:
         found["ObservedOnly"] = only(observed)[0]
+        found["FirstCellDropped"], found["LastCellDropped"] = add(h[1:]), add(h[:-1])
         found["MeanForSum"] = ratio(total["H"], seen) if seen else None
     found["MeanOverAllForSum"] = ratio(total["H" if kind == "entropy" else "I"], n) if n else NAN
     found["Complement"] = total["I" if kind == "entropy" else "H"]

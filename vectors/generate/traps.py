@@ -25,13 +25,15 @@ def wants(test):
     return [test["want"], *test.get("also", [])]
 
 
-def apart(value, want, scale=APART):
+def apart(value, want, format, scale=APART):
     """Whether a fraction is no right answer by far."""
     if "error" in want:
         return True
     if "count" in want:
         return value != want["count"]
     lo, hi = Fraction(want["lo"]), Fraction(want["hi"])
+    if value == 0 and rounded(lo, format) == 0:
+        return False
     return value < lo - scale * abs(lo) or value > hi + scale * abs(hi)
 
 
@@ -70,7 +72,7 @@ def attach(test, found):
         value = cut(value, test["format"])
         if value is None or (math.isnan(value) and "error" in test["want"]):
             continue
-        if not math.isfinite(value) or all(apart(Fraction(value), want) for want in wants(test)):
+        if not math.isfinite(value) or all(apart(Fraction(value), want, test["format"]) for want in wants(test)):
             kept[name] = hex_float(value)
     if kept:
         test["traps"] = kept

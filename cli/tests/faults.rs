@@ -25,7 +25,7 @@ const THREADS: usize = 2;
 #[derive(Debug, Default)]
 struct Fault<'a> {
     name: &'a str,
-    ops: &'a str,
+    op: &'a str,
     causes: Vec<&'a str>,
     /// Lines to take out, and those to put in their place.
     places: Vec<(Vec<&'a str>, Vec<&'a str>)>,
@@ -38,9 +38,9 @@ fn faults() -> Vec<Fault<'static>> {
         match line.split_at_checked(1) {
             Some(("@", header)) => {
                 let fields: Vec<_> = header.split(" : ").map(str::trim).collect();
-                let [name, ops, causes] = fields[..] else { panic!("{line}") };
+                let [name, op, causes] = fields[..] else { panic!("{line}") };
                 let causes = causes.split(' ').collect();
-                faults.push(Fault { name, ops, causes, places: Vec::new() });
+                faults.push(Fault { name, op, causes, places: Vec::new() });
                 putting = true;
             }
             Some(("-", text)) => {
@@ -71,9 +71,10 @@ impl Fault<'_> {
         })
     }
 
-    /// What is wrong with the verdict on the port with this fault.
-    fn unnamed(&self, file: &Path) -> Option<String> {
-        let (status, verdict) = check(&["--ops", self.ops], file);
+    /// What is wrong with the verdict on the port with this fault. The vectors are in folders by operation: to read them
+    /// all takes longer than to run those of one.
+    fn unnamed(&self, file: &Path, vectors: &Folder) -> Option<String> {
+        let (status, verdict) = check(&["--vectors", &vectors.text_path(self.op)], file);
         let operations = verdict["operations"].as_array().unwrap();
         let causes: Vec<_> = operations.iter().flat_map(|o| o["causes"].as_array().unwrap()).collect();
         // Causes of one score cannot be told apart from the answers: the report says them all.
@@ -83,7 +84,7 @@ impl Fault<'_> {
         (status != 1 || !is_named).then(|| {
             format!(
                 "{} ({}): wanted {:?}, found {found:?}, exit status {status}",
-                self.name, self.ops, self.causes
+                self.name, self.op, self.causes
             )
         })
     }
@@ -129,6 +130,11 @@ fn every_planted_fault_is_named() {
     }
     let port = fs::read_to_string(PORT).unwrap();
     let folder = Folder::new();
+    for op in faults.iter().map(|fault| fault.op).collect::<BTreeSet<_>>() {
+        fs::create_dir(folder.path(op)).unwrap();
+        let file = format!("{op}.json");
+        fs::copy(Path::new(VECTORS).join(&file), folder.path(op).join(&file)).unwrap();
+    }
     let next = AtomicUsize::new(0);
     let work = || {
         let mut unnamed = Vec::new();
@@ -137,7 +143,7 @@ fn every_planted_fault_is_named() {
             let Some(fault) = faults.get(index) else { return unnamed };
             let file = folder.path(&format!("fault_{index}.py"));
             fs::write(&file, fault.planted(&port)).unwrap();
-            unnamed.extend(fault.unnamed(&file));
+            unnamed.extend(fault.unnamed(&file, &folder));
         }
     };
     let unnamed: Vec<String> = thread::scope(|scope| {

@@ -6,7 +6,7 @@
 //
 // The equations are those of Blanco, "Derivation of an Expression for the Mean Information Maximum Value". Functions are
 // templates over float and double. All of them compute in pairs of doubles, with about 100 bits, and round once: results
-// are the nearest floats unless the exact result is within 2^-40 ulp of half-way between two. Compile with
+// are the nearest floats unless the exact result is within 2^-34 ulp of half-way between two. Compile with
 // -ffp-contract=off, and never with -ffast-math, which breaks the pairs.
 #pragma once
 

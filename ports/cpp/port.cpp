@@ -120,8 +120,8 @@ int main() {
             for (const auto& entry : formats.at("f64")) names += (names.empty() ? "\"" : ",\"") + entry.first + "\"";
             // 100 bits do not decide every rounding: see mean_information.hpp.
             std::cout << R"({"protocol":1,"name":"mean_information.hpp","language":"C++","version":"1",)"
-                      << R"("formats":["f64","f32"],"ops":[)" << names << R"(],"claims":{"cell.*":0.5000001,)"
-                      << R"("sensor.occupancy":0.5000001,"fuse.log_odds":0.5000001}})" << std::endl;
+                      << R"("formats":["f64","f32"],"ops":[)" << names << R"(],"claims":{"cell.*":0.5000000001,)"
+                      << R"("sensor.occupancy":0.5000000001,"fuse.log_odds":0.5000000001}})" << std::endl;
             continue;
         }
         std::cout << R"({"seq":)" << request.members["seq"].text << ',';
@@ -131,6 +131,8 @@ int main() {
             std::cout << R"("result":)" << result;
         } catch (const std::domain_error&) {
             std::cout << R"("error":"domain")";
+        } catch (const std::out_of_range&) {
+            std::cout << R"("error":"unknown-operation")";
         } catch (const TooLarge& reason) {
             std::cout << R"("skipped":")" << reason.what() << '"';
         }

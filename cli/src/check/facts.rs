@@ -128,7 +128,7 @@ struct Number {
 /// Numbers that were answered where one was wanted, right ones too.
 fn numbers(cases: &[Case<'_>]) -> Vec<Number> {
     let number = |(case, Case { judged, .. }): (usize, &Case<'_>)| match judged {
-        Some(Judged { right, answer: Answered::Float(value, _), error: Some(error) }) => {
+        Some(Judged { right, answer: Answered::Float(value, _), error: Some(error), .. }) => {
             Some(Number { case, right: *right, value: *value, error: *error })
         }
         _ => None,

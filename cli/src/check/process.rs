@@ -101,7 +101,7 @@ impl Process {
         start.args(parts).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         #[cfg(unix)]
         {
-            // Whatever a script starts ends with it.
+            // Whatever a script starts is killed with it.
             use std::os::unix::process::CommandExt;
             start.process_group(0);
         }

@@ -164,6 +164,7 @@ fn welcome(fault: &str) -> String {
         "no-protocol" => return "{\"formats\":[\"f64\"]}".to_owned(),
         "no-list" => return "{\"protocol\":1,\"formats\":\"f64\"}".to_owned(),
         "negative-claim" => welcome.claims = [("*".to_owned(), -1.0)].into(),
+        "huge-claim" => welcome.claims = [("cell.*".to_owned(), 1e300)].into(),
         "double-only" => welcome.formats = vec!["f64".to_owned(), "f80".to_owned()],
         "half" => welcome.ops = vec!["cell.information".to_owned(), "cell.entopy".to_owned()],
         "claims" => welcome.claims = [("cell.*".to_owned(), 4.0), ("mop.*".to_owned(), 3.0)].into(),
@@ -210,6 +211,7 @@ fn reply(fault: &str, run: &Run) -> Reply {
             Reply::Result(hex_float::format(f32::from_bits((x as f32).to_bits() + 1)).into())
         }
         ("claims" | "next", Some(x)) => float(f64::from_bits(x.to_bits() + 1)),
+        ("skips-all", _) => Reply::Skipped("too busy".to_owned()),
         ("skips", Some(_)) if single => Reply::Skipped("no \u{1b}single precision".to_owned()),
         ("counts-all", _) if count => match &run.args["cells"] {
             Argument::List(cells) => Reply::Result(cells.len().into()),

@@ -9,6 +9,7 @@ use std::fs;
 pub(crate) const TESTS: &[Test] = &[
     ("a_right_port_passes", a_right_port_passes),
     ("claims_are_allowed_and_shown", claims_are_allowed_and_shown),
+    ("nothing_passed_is_no_success", nothing_passed_is_no_success),
     ("what_is_not_declared_is_skipped", what_is_not_declared_is_skipped),
     ("operations_are_chosen", operations_are_chosen),
     ("known_failures_do_not_count", known_failures_do_not_count),
@@ -30,8 +31,17 @@ fn claims_are_allowed_and_shown() {
     assert!(table.contains("4 claimed") && table.contains("mop.*, which no operation matches"), "{table}");
     let json = vectors.json("claims", &[]);
     assert_eq!(json["operations"][0]["formats"][0]["claimed_ulp"], 4.0);
+    assert_eq!(json["passed_by_claim"], 34);
+    assert!(table.contains("34 answers pass only by the port's claims"), "{table}");
     // The same answers without the claim.
     vectors.table("next", &[], "10 passed, 34 failed, 0 skipped");
+}
+
+/// A port that is asked nothing it answers has not been checked.
+fn nothing_passed_is_no_success() {
+    let (status, table) = Vectors::new().check("skips-all", &[]);
+    assert_eq!((status, table.lines().last()), (1, Some("0 passed, 0 failed, 44 skipped")), "{table}");
+    assert!(table.contains("nothing passed"), "{table}");
 }
 
 fn what_is_not_declared_is_skipped() {

@@ -58,11 +58,12 @@ def tolerance(change, mean, format):
     return 2 + math.ceil(TENTHS * change / ulp) / TENTHS
 
 
-def counts_of(sure, doubtful):
-    """All numbers of observed cells that doubts allow."""
-    found = {sure}
-    for n in doubtful:
-        found |= {count + n for count in found}
+def sums_of(count, lo, hi, doubtful):
+    """All maps that doubts allow, each as its number of observed cells and the bounds of its sum; the first is the convention."""
+    found = [(count, lo, hi)]
+    for n, observed, (least, most) in doubtful:
+        without, having = found, [(count + n, lo + least, hi + most) for count, lo, hi in found]
+        found = having + without if observed else without + having
     return found
 
 
@@ -72,28 +73,33 @@ def evaluate(kind, format, z, s, h, x, y):
     places = polar(*exact[:3]) if kind == "polar" else cartesian(*exact)
     room = Room(z, s, format)
     with ctx.workprec(BITS):
-        total, change, sure, convention, doubts, tie = arb(0), arb(0), 0, 0, [], False
+        total, certain, change, sure, convention, doubts, tie = arb(0), arb(0), arb(0), 0, 0, [], False
         for squared, n in places.items():
             observed, doubtful, value, moved = room.judge(squared)
             total, change = total + n * value, change + n * moved
             convention += n * observed
             if doubtful:
-                doubts.append(n)
+                doubts.append((n, observed, bounds(n * value)))
             else:
-                sure += n * observed
+                sure, certain = sure + n * observed, certain + n * value
             if n > 1 and not tie and room.z / 4 < root_or_zero(squared):
                 tie = True
         lo, hi = (max(end, Fraction(0)) for end in bounds(total))
+        sums = sums_of(sure, *(max(end, Fraction(0)) for end in bounds(certain)), doubts)
         value, _ = defined(kind, z, s, h, x, y)
     with mpmath.workprec(200):
         if hi > 0:
             within(lo, hi, value, Fraction(1, 2**120))
-    options = counts_of(sure, doubts)
-    if len(options) > 12:
+    answers = []
+    for n, low, high in sums:
+        answer = want(low / n, high / n) if n else want(Fraction(0), Fraction(0))
+        if answer not in answers:
+            answers.append(answer)
+    if len(answers) > 12:
         return None
-    answers = [want(lo / n, hi / n) if n else want(Fraction(0), Fraction(0)) for n in [convention, *sorted(options - {convention})]]
-    least = lo / max(options) if max(options) else Fraction(0)
-    moved = bounds(change)[1] / min(n for n in options if n) if least else 0
+    counts = [n for n, _, _ in sums]
+    least = lo / max(counts) if max(counts) else Fraction(0)
+    moved = bounds(change)[1] / min(n for n in counts if n) if least else 0
     return answers, tolerance(moved, least, format), convention, bool(doubts), tie
 
 

@@ -257,7 +257,7 @@ mod tests {
         }))
         .unwrap();
         let verdict = |(test, x): (&Test, &f64)| {
-            let judged = judge(test, NEAREST, &Reply::Result(hex_float::format(*x).into()));
+            let judged = judge(test, NEAREST, 0.0, &Reply::Result(hex_float::format(*x).into()));
             if judged.right { Verdict::Passed(judged) } else { Verdict::Failed(Wrong::Answer(judged)) }
         };
         let verdicts: Vec<_> = vectors.tests.iter().zip(answers).map(verdict).collect();

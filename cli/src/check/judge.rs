@@ -194,7 +194,7 @@ mod tests {
 
     fn judged<T: Real>(x: T, ends: (&str, &str), tolerance: f64) -> Judged {
         let reply = Reply::Result(hex_float::format(x).into());
-        judge(&test::<T>(enclosure(ends.0, ends.1), Vec::new()), tolerance, &reply)
+        judge(&test::<T>(enclosure(ends.0, ends.1), Vec::new()), tolerance, 0.0, &reply)
     }
 
     fn is_nearest<T: Real>(x: T, exact: &str) -> bool {
@@ -276,7 +276,7 @@ mod tests {
         let domain = || Want::Error { error: "domain".to_owned() };
         let also = vec![enclosure("0.5", "0.5"), domain(), Want::Count { count: 3 }];
         let test = test::<f64>(enclosure("0.25", "0.25"), also);
-        let judged = |reply: &Reply| judge(&test, NEAREST, reply);
+        let judged = |reply: &Reply| judge(&test, NEAREST, 0.0, reply);
         for (reply, right) in [
             (Reply::Result("0x1p-2".into()), true),
             (Reply::Result("0x1p-1".into()), true),
@@ -295,5 +295,18 @@ mod tests {
         // The nearest of them counts.
         let deviation = judged(&Reply::Result("0x1.1p-1".into())).error.unwrap();
         assert_eq!(deviation.exact, 0.5);
+    }
+
+    /// A claim is about size, and what it allows is counted.
+    #[test]
+    fn a_claim_excuses_no_sign() {
+        let zero = test::<f64>(enclosure("0", "0"), Vec::new());
+        let judged = |claim: f64, x: f64| {
+            let reply = Reply::Result(hex_float::format(x).into());
+            let judged = judge(&zero, NEAREST, claim, &reply);
+            (judged.right, judged.by_claim)
+        };
+        assert_eq!([judged(3.0, 0.0), judged(3.0, f64::from_bits(2))], [(true, false), (true, true)]);
+        assert_eq!([judged(3.0, -0.0), judged(3.0, f64::from_bits(4))], [(false, false); 2]);
     }
 }

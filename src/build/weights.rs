@@ -3,7 +3,7 @@
 
 use crate::error::Error;
 use crate::real::Real;
-use crate::rounded::{Leading, Natural, leading, quotient};
+use crate::rounded::{Leading, Natural, leading, odd_parts, quotient};
 use alloc::vec::Vec;
 use core::cmp::Ordering;
 
@@ -36,13 +36,6 @@ pub(super) struct Weights {
     /// Each is `m 2^shift` in units of the least bit of all.
     parts: Vec<(u64, usize)>,
     total: Natural,
-}
-
-/// The odd `m` and the exponent `e` of `|x| = m 2^e`; `None` for 0.
-fn odd_parts<T: Real>(x: T) -> Option<(u64, i32)> {
-    let (m, e) = x.parts();
-    let zeros = m.trailing_zeros();
-    (m != 0).then(|| (m >> zeros, e + zeros as i32))
 }
 
 impl Weights {

@@ -1,5 +1,6 @@
 //! Fixed-point numbers of any precision with a counted error: [`Ball`].
 
+use super::limbs;
 use alloc::{vec, vec::Vec};
 use core::cmp::Ordering;
 
@@ -35,13 +36,8 @@ impl Ball {
     }
 
     pub(super) fn plus(mut self, other: &Self) -> Self {
-        let mut carry = false;
-        for (a, &b) in self.limbs.iter_mut().zip(&other.limbs) {
-            let (sum, first) = a.overflowing_add(b);
-            let (sum, second) = sum.overflowing_add(u64::from(carry));
-            *a = sum;
-            carry = first | second;
-        }
+        // A value stays below 2^64: nothing carries out.
+        limbs::add(&mut self.limbs, &other.limbs);
         self.error = self.error.saturating_add(other.error);
         self
     }
@@ -49,16 +45,10 @@ impl Ball {
     /// `self - other`, a difference that is known not to be negative; 0 where flooring made it so.
     pub(super) fn minus(mut self, other: &Self) -> Self {
         self.error = self.error.saturating_add(other.error);
-        if compare_limbs(&self.limbs, &other.limbs) == Ordering::Less {
+        if self.exact_order(other) == Ordering::Less {
             self.limbs.fill(0);
-            return self;
-        }
-        let mut borrow = false;
-        for (a, &b) in self.limbs.iter_mut().zip(&other.limbs) {
-            let (difference, first) = a.overflowing_sub(b);
-            let (difference, second) = difference.overflowing_sub(u64::from(borrow));
-            *a = difference;
-            borrow = first | second;
+        } else {
+            limbs::subtract_multiple(&mut self.limbs, &other.limbs, 1);
         }
         self
     }
@@ -98,28 +88,14 @@ impl Ball {
 
     /// `self / divisor`.
     pub(super) fn over(mut self, divisor: u64) -> Self {
-        let mut remainder = 0_u128;
-        for limb in self.limbs.iter_mut().rev() {
-            let dividend = remainder << 64 | u128::from(*limb);
-            *limb = (dividend / u128::from(divisor)) as u64;
-            remainder = dividend % u128::from(divisor);
-        }
+        limbs::divide(&mut self.limbs, divisor);
         self.error = (self.error / u128::from(divisor)).saturating_add(2);
         self
     }
 
     pub(super) fn times(&self, other: &Self) -> Self {
         let n = self.limbs.len();
-        let mut product = vec![0_u64; 2 * n];
-        for (i, &a) in self.limbs.iter().enumerate() {
-            let mut carry = 0;
-            for (j, &b) in other.limbs.iter().enumerate() {
-                let sum = u128::from(a) * u128::from(b) + u128::from(product[i + j]) + carry;
-                product[i + j] = sum as u64;
-                carry = sum >> 64;
-            }
-            product[i + n] = carry as u64;
-        }
+        let product = limbs::product(&self.limbs, &other.limbs);
         // |ab - a'b'| <= a' eb + b' ea + ea eb, and ea eb is below one unit: ea, eb < 2^128, and a unit is at most 2^-256.
         let error = (self.integer_part() + 1)
             .saturating_mul(other.error)
@@ -133,7 +109,7 @@ impl Ball {
         let mut quotient = Self { limbs: vec![0; n], error: 0 };
         let mut rest = self.clone();
         for bit in (0..=64 * (n - 1)).rev() {
-            if compare_limbs(&rest.limbs, &divisor.limbs) != Ordering::Less {
+            if rest.exact_order(divisor) != Ordering::Less {
                 rest = rest.minus(divisor);
                 quotient.limbs[bit / 64] |= 1 << (bit % 64);
             }
@@ -210,12 +186,12 @@ impl Ball {
 
     /// The order of two values, whatever their errors: of the numbers themselves if nothing was dropped.
     pub(super) fn exact_order(&self, other: &Self) -> Ordering {
-        compare_limbs(&self.limbs, &other.limbs)
+        limbs::compare(&self.limbs, &other.limbs)
     }
 
     /// Whether the number is above another; `None` if the balls meet.
     pub(super) fn is_above(&self, other: &Self) -> Option<bool> {
-        let order = compare_limbs(&self.limbs, &other.limbs);
+        let order = self.exact_order(other);
         let (larger, smaller) = if order == Ordering::Less { (other, self) } else { (self, other) };
         let difference = larger.clone().minus(smaller);
         let error = difference.error;
@@ -225,11 +201,6 @@ impl Ball {
         }) || u128::from(difference.limbs[0]) | u128::from(difference.limbs[1]) << 64 > error;
         exceeds.then_some(order == Ordering::Greater)
     }
-}
-
-/// The order of two integers of the same number of limbs.
-fn compare_limbs(a: &[u64], b: &[u64]) -> Ordering {
-    a.iter().rev().cmp(b.iter().rev())
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@
 use super::enclosure::{Enclosure, Rounded};
 use super::fixed::{mul_high, reciprocal, shift_right};
 use super::natural::{Natural, quotient};
-use super::normalised;
+use super::odd_parts;
 use crate::real::Real;
 
 /// A positive number, cut: a significand in `[2^127, 2^128)`, an exponent.
@@ -33,18 +33,16 @@ impl Cut {
 
 /// For occupancies inside (0, 1).
 pub(crate) fn fused<T: Real>(occupancies: impl Iterator<Item = T> + Clone) -> T {
-    match enclosure(occupancies.clone().map(factors)).map(Enclosure::round) {
+    match enclosure(occupancies.clone().filter_map(factors)).map(Enclosure::round) {
         Ok(Rounded::Decided(p)) => p,
-        Ok(Rounded::Between { .. }) => exactly(occupancies.map(factors)),
+        Ok(Rounded::Between { .. }) => exactly(occupancies.filter_map(factors)),
         Err(certain) => certain,
     }
 }
 
 /// `m` and `n` with `p = m 2^-n`, `m` odd.
-fn factors<T: Real>(p: T) -> (u64, u32) {
-    let (m, e) = normalised(p);
-    let zeros = m.trailing_zeros();
-    (m >> zeros, (-e) as u32 - zeros)
+fn factors<T: Real>(p: T) -> Option<(u64, u32)> {
+    odd_parts(p).map(|(m, e)| (m, (-e) as u32))
 }
 
 /// The fused occupancy within a relative `2^-80`, for fewer than `2^40` factors: each cuts below `2^-125`. Or the
@@ -105,7 +103,7 @@ mod tests {
     fn what_128_bits_do_not_tell_is_told_exactly() {
         let (a, b) = ((1 << 27) + 1, (1 << 26) + 1);
         let p = [f64::from_parts(a, -400), f64::from_parts(b, -400)];
-        let found = enclosure::<f64>(p.into_iter().map(factors)).map(Enclosure::round::<f64>);
+        let found = enclosure::<f64>(p.into_iter().filter_map(factors)).map(Enclosure::round::<f64>);
         assert!(matches!(found, Ok(Rounded::Between { .. })));
         assert_eq!(fused(p.into_iter()), f64::from_parts(a * b / 2 + 1, -799));
     }
@@ -114,12 +112,12 @@ mod tests {
         /// Two ways: 128 bits, and exactly.
         #[test]
         fn the_enclosure_holds_the_exact_result(p in vec(inside(), 0..12)) {
-            let exact: f64 = exactly(p.iter().copied().map(factors));
+            let exact: f64 = exactly(p.iter().copied().filter_map(factors));
             let found: f64 = fused(p.iter().copied());
             prop_assert!(in_unit_interval(exact));
             prop_assert_eq!(found.to_bits(), exact.to_bits(), "{:?}", p);
             let single: Vec<f32> = p.iter().map(|&p| p as f32).filter(|&p| p > 0.0 && p < 1.0).collect();
-            let exact: f32 = exactly(single.iter().copied().map(factors));
+            let exact: f32 = exactly(single.iter().copied().filter_map(factors));
             prop_assert_eq!(fused(single.iter().copied()), exact);
         }
     }

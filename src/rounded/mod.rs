@@ -21,6 +21,7 @@ pub(crate) mod extended;
 mod fixed;
 mod fusion;
 mod gaussian;
+pub(crate) mod limbs;
 mod log_odds;
 pub(crate) mod mean;
 mod natural;
@@ -181,6 +182,13 @@ pub(crate) fn normalised<T: Real>(x: T) -> (u64, i32) {
     let (m, e) = x.parts();
     let shift = m.leading_zeros() as i32 - 11;
     (m << shift, e - shift)
+}
+
+/// `|x| = m 2^e` with an odd significand, for `x` finite; `None` for 0.
+pub(crate) fn odd_parts<T: Real>(x: T) -> Option<(u64, i32)> {
+    let (m, e) = x.parts();
+    let zeros = m.trailing_zeros();
+    (m != 0).then(|| (m >> zeros, e + zeros as i32))
 }
 
 /// The value in the enclosure, rounded to nearest; `is_above` says whether it lies above a midpoint.

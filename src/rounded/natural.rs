@@ -1,6 +1,6 @@
 //! Natural numbers of any size, and the nearest float to the quotient of two.
 
-use super::round_integer;
+use super::{limbs, round_integer};
 use crate::real::Real;
 use alloc::{vec, vec::Vec};
 use core::cmp::Ordering;
@@ -19,10 +19,14 @@ impl From<u64> for Natural {
 
 impl Natural {
     fn trimmed(mut self) -> Self {
+        self.trim();
+        self
+    }
+
+    fn trim(&mut self) {
         while self.limbs.last() == Some(&0) {
             self.limbs.pop();
         }
-        self
     }
 
     pub(crate) fn is_zero(&self) -> bool {
@@ -37,9 +41,7 @@ impl Natural {
     /// Adds `n 2^shift`.
     pub(crate) fn add_shifted(&mut self, n: u128, shift: usize) {
         let (at, part) = (shift / 64, shift % 64);
-        let low = n << part;
-        let high = if part == 0 { 0 } else { (n >> (128 - part)) as u64 };
-        self.add_limbs(at, &[low as u64, (low >> 64) as u64, high]);
+        self.add_limbs(at, &limbs::at_bit(n, part));
     }
 
     pub(crate) fn plus(mut self, other: &Self) -> Self {
@@ -50,19 +52,8 @@ impl Natural {
     fn add_limbs(&mut self, at: usize, addend: &[u64]) {
         let length = self.limbs.len().max(at + addend.len()) + 1;
         self.limbs.resize(length, 0);
-        let mut carry = false;
-        for (k, limb) in self.limbs[at..].iter_mut().enumerate() {
-            if k >= addend.len() && !carry {
-                break;
-            }
-            let (sum, first) = limb.overflowing_add(addend.get(k).copied().unwrap_or(0));
-            let (sum, second) = sum.overflowing_add(u64::from(carry));
-            *limb = sum;
-            carry = first | second;
-        }
-        while self.limbs.last() == Some(&0) {
-            self.limbs.pop();
-        }
+        limbs::add(&mut self.limbs[at..], addend);
+        self.trim();
     }
 
     /// `self 2^shift`.
@@ -84,22 +75,12 @@ impl Natural {
         let (large, small) = if negative { (other, self) } else { (self, other) };
         let mut limbs = large.limbs.clone();
         // The larger: no borrow is left.
-        subtract_multiple(&mut limbs, &small.limbs, 1);
+        limbs::subtract_multiple(&mut limbs, &small.limbs, 1);
         (Self { limbs }.trimmed(), negative)
     }
 
     pub(crate) fn times(&self, other: &Self) -> Self {
-        let mut limbs = vec![0; self.limbs.len() + other.limbs.len()];
-        for (i, &a) in self.limbs.iter().enumerate() {
-            let mut carry = 0;
-            for (j, &b) in other.limbs.iter().enumerate() {
-                let sum = u128::from(a) * u128::from(b) + u128::from(limbs[i + j]) + carry;
-                limbs[i + j] = sum as u64;
-                carry = sum >> 64;
-            }
-            limbs[i + other.limbs.len()] = carry as u64;
-        }
-        Self { limbs }.trimmed()
+        Self { limbs: limbs::product(&self.limbs, &other.limbs) }.trimmed()
     }
 }
 
@@ -112,20 +93,8 @@ impl PartialOrd for Natural {
 impl Ord for Natural {
     fn cmp(&self, other: &Self) -> Ordering {
         let (a, b) = (&self.limbs, &other.limbs);
-        a.len().cmp(&b.len()).then_with(|| a.iter().rev().cmp(b.iter().rev()))
+        a.len().cmp(&b.len()).then_with(|| limbs::compare(a, b))
     }
-}
-
-/// `a - factor b` in place, `a` being at least as long as `b`; the borrow that is left.
-fn subtract_multiple(a: &mut [u64], b: &[u64], factor: u64) -> u64 {
-    let mut borrow = 0_u128;
-    for (k, limb) in a.iter_mut().enumerate() {
-        let product = u128::from(b.get(k).copied().unwrap_or(0)) * u128::from(factor) + borrow;
-        let (difference, below) = limb.overflowing_sub(product as u64);
-        *limb = difference;
-        borrow = (product >> 64) + u128::from(below);
-    }
-    borrow as u64
 }
 
 /// `n 2^e / divisor`, rounded once to nearest, ties to even, for a divisor that is not 0.
@@ -162,11 +131,12 @@ pub(crate) fn leading(n: &Natural, divisor: &Natural, e: i32) -> Option<(Leading
     let estimate =
         (u128::from(rest[top]) << 64 | u128::from(rest[top - 1])) / u128::from(divisor.limbs[top - 1]);
     let mut digit = u64::try_from(estimate).unwrap_or(u64::MAX);
-    if subtract_multiple(&mut rest, &divisor.limbs, digit) != 0 {
+    if limbs::subtract_multiple(&mut rest, &divisor.limbs, digit) != 0 {
         // At most two too large.
         loop {
             digit -= 1;
-            if add_back(&mut rest, &divisor.limbs) {
+            // A carry out ends the borrow.
+            if limbs::add(&mut rest, &divisor.limbs) {
                 break;
             }
         }
@@ -181,18 +151,6 @@ pub(crate) fn leading(n: &Natural, divisor: &Natural, e: i32) -> Option<(Leading
 /// Beyond these exponents everything is 0 or infinite.
 fn clamped(e: i64) -> i32 {
     e.clamp(-4096, 4096) as i32
-}
-
-/// `a + b` in place; whether it carries out of `a`, which ends a borrow.
-fn add_back(a: &mut [u64], b: &[u64]) -> bool {
-    let mut carry = false;
-    for (k, limb) in a.iter_mut().enumerate() {
-        let (sum, first) = limb.overflowing_add(b.get(k).copied().unwrap_or(0));
-        let (sum, second) = sum.overflowing_add(u64::from(carry));
-        *limb = sum;
-        carry = first | second;
-    }
-    carry
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 
 use crate::real::Real;
 use crate::rounded::mean::Fixed;
-use crate::rounded::{round_limbs, shift_right};
+use crate::rounded::{limbs, round_limbs, shift_right};
 #[cfg(feature = "serde")]
 use core::cmp::Ordering;
 
@@ -72,9 +72,7 @@ impl ExactSum {
     #[inline]
     fn add_at(&mut self, place: usize, n: u128) {
         let (limb, bit) = (place / 64, place % 64);
-        let low = n << bit;
-        let high = if bit == 0 { 0 } else { (n >> (128 - bit)) as u64 };
-        self.carry_into(limb, [low as u64, (low >> 64) as u64, high]);
+        self.carry_into(limb, &limbs::at_bit(n, bit));
     }
 
     /// Adds the sum of another.
@@ -82,23 +80,13 @@ impl ExactSum {
     /// # Panics
     /// If the sum would reach `2^78`; then the sum is lost.
     pub fn merge(&mut self, other: &Self) {
-        self.carry_into(0, other.limbs);
+        self.carry_into(0, &other.limbs);
     }
 
     /// Adds the integer of the given limbs, the first of which stands at limb `at`.
     #[inline]
-    fn carry_into<const N: usize>(&mut self, at: usize, addend: [u64; N]) {
-        let mut carry = false;
-        for (k, limb) in self.limbs[at..].iter_mut().enumerate() {
-            let more = addend.get(k).copied();
-            if more.is_none() && !carry {
-                return;
-            }
-            let (sum, first) = limb.overflowing_add(more.unwrap_or(0));
-            let (sum, second) = sum.overflowing_add(u64::from(carry));
-            *limb = sum;
-            carry = first | second;
-        }
+    fn carry_into(&mut self, at: usize, addend: &[u64]) {
+        let carry = limbs::add(&mut self.limbs[at..], addend);
         assert!(!carry, "an exact sum stays below 2^78");
     }
 
@@ -107,7 +95,7 @@ impl ExactSum {
     pub(super) fn compare(&self, n: u64) -> Ordering {
         let mut bound = Self::new();
         bound.add_many(1.0_f64, n);
-        self.limbs.iter().rev().cmp(bound.limbs.iter().rev())
+        limbs::compare(&self.limbs, &bound.limbs)
     }
 
     /// Whether the sum is a multiple of `2^exponent`.
@@ -134,13 +122,8 @@ impl ExactSum {
         }
         // One more limb below, so that the quotient keeps 64 bits under the smallest subnormal.
         let mut quotient = [0; LIMBS + 1];
-        let mut remainder = 0_u128;
-        for k in (0..=LIMBS).rev() {
-            let digit = if k == 0 { 0 } else { self.limbs[k - 1] };
-            let dividend = remainder << 64 | u128::from(digit);
-            quotient[k] = (dividend / u128::from(count)) as u64;
-            remainder = dividend % u128::from(count);
-        }
+        quotient[1..].copy_from_slice(&self.limbs);
+        let remainder = limbs::divide(&mut quotient, count);
         round_limbs(&quotient, LOWEST - 64, remainder != 0)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::super::tests::Random;
 use super::super::wide::{self, Wide};
-use super::{Ball, compare_limbs};
+use super::Ball;
 use num_bigint::{BigInt, BigUint};
 use std::cmp::Ordering;
 use std::vec::Vec;
@@ -55,7 +55,7 @@ fn sums_and_differences_are_exact() {
         let (a, b) = (Ball::random(&mut random, 40), Ball::random(&mut random, 40));
         let ([a0, a1], [b0, b1]) = (a.bounds(), b.bounds());
         a.clone().plus(&b).assert_holds([&a0 + &b0, &a1 + &b1], UNIT, a.error + b.error);
-        let (a, b, range) = if compare_limbs(&a.limbs, &b.limbs) == Ordering::Less {
+        let (a, b, range) = if a.exact_order(&b) == Ordering::Less {
             (b, a, [b0 - a1, b1 - a0])
         } else {
             (a, b, [a0 - b1, a1 - b0])

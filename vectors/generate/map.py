@@ -91,6 +91,8 @@ def lists(format, rng):
     # 1000 bits, then terms each below half an ulp of that in single precision.
     yield "small-beside-large", [0.5] * 1000 + [1.5 * 2.0**-20] * 1000, "SmallBesideLarge"
     yield "small-beside-large", [0.0] * 1000 + [0.5 + 0.75 * 2.0**-8] * 1000, "SmallBesideLarge"
+    for x in ([smallest, 5 * smallest, 1000 * smallest], [7 * smallest] * 2, [2.0 ** (lowest + precision - 2)] * 3):
+        yield "edge", x, "Subnormal"
     for bad in draw.BAD:
         yield "domain", [bad], "Domain"
         yield "domain", [0.25, 0.5, bad, 0.875], "Domain"
@@ -131,7 +133,7 @@ def main():
             flags = [flag]
             if flag != "Domain":
                 flags += [name for name in more_flags(cells) if name != flag]
-                if any(0 < p < 2.0 ** (sum(FORMATS[format]) - 1) for p in cells):
+                if flag != "Subnormal" and any(0 < p < 2.0 ** (sum(FORMATS[format]) - 1) for p in cells):
                     flags.append("Subnormal")
             answers = wants(cells) if flag != "Domain" else {}
             for op, found in tests.items():
@@ -139,7 +141,7 @@ def main():
                     continue  # a count has no digits to lose
                 test = {"id": label(op, format, kind, args), "format": format, "args": args, "flags": flags}
                 test["want"] = answers.get(op, {"error": "domain"})
-                wrong = traps.of_map(op, [Fraction(p) for p in cells]) if answers else traps.of_bad_map(op, cells)
+                wrong = traps.of_map(op, [Fraction(p) for p in cells], format) if answers else traps.of_bad_map(op, cells)
                 found.append(traps.attach(test, wrong))
     for op, found in tests.items():
         write(op, SOURCE, FLAGS, NOTES, found)

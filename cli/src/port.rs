@@ -1,9 +1,9 @@
 //! The library as a port: it answers the requests of the [protocol](crate::protocol), whatever they are.
 
 use crate::hex_float;
-use crate::protocol::{Answer, Argument, Line, Reply, Request, Run, VERSION, Welcome, errors, read_line};
+use crate::protocol::{Answer, Line, Reply, Request, Run, VERSION, Welcome, errors, read_line, values};
 use mean_information::Real;
-use mean_information::operations::{self, OPERATIONS, Operation, Refusal, Shape, Value};
+use mean_information::operations::{self, OPERATIONS, Operation, Refusal};
 use serde::Deserialize;
 use serde_json::Value as Json;
 use std::io::{self, BufRead, Write};
@@ -75,31 +75,13 @@ pub fn reply(run: &Run) -> Reply {
 }
 
 fn computed<T: Real>(operation: &Operation, run: &Run) -> Reply {
-    let values =
-        operation.arguments.iter().map(|argument| value::<T>(run.args.get(argument.name)?, argument.shape));
-    let values: Option<Vec<_>> = values.collect();
-    let values = values.filter(|values| values.len() == run.args.len());
-    match values.map_or(Err(Refusal::Arguments), |values| operation.run(&values)) {
+    let values = values::<T>(operation, &run.args).map_err(|_| Refusal::Arguments);
+    match values.and_then(|values| operation.run(&values)) {
         Ok(operations::Answer::Float(x)) => Reply::Result(hex_float::format(x).into()),
         Ok(operations::Answer::Count(count)) => Reply::Result(count.into()),
         Err(Refusal::Domain(_)) => Reply::error(errors::DOMAIN),
         Err(Refusal::TooLarge(error)) => Reply::Skipped(error.to_string()),
         Err(Refusal::Arguments) => Reply::error(errors::ARGUMENTS),
-    }
-}
-
-/// The argument as floats, if it has this shape and they are floats of the format.
-fn value<T: Real>(argument: &Argument, shape: Shape) -> Option<Value<T>> {
-    let floats =
-        |texts: &[String]| texts.iter().map(|text| hex_float::parse(text).ok()).collect::<Option<Vec<T>>>();
-    match (shape, argument) {
-        (Shape::Float, Argument::Float(text)) => hex_float::parse(text).ok().map(Value::Float),
-        (Shape::List, Argument::List(texts)) => floats(texts).map(Value::List),
-        (Shape::Rows, Argument::Rows(rows)) => {
-            rows.iter().map(|row| floats(row)).collect::<Option<_>>().map(Value::Rows)
-        }
-        (Shape::Rows, Argument::List(none)) if none.is_empty() => Some(Value::Rows(Vec::new())),
-        _ => None,
     }
 }
 

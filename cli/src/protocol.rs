@@ -8,6 +8,9 @@
 //!
 //! Floats are [hexadecimal floats](crate::hex_float) in strings, counts are JSON integers.
 
+use crate::hex_float;
+use mean_information::Real;
+use mean_information::operations::{self, Operation, Shape};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -56,7 +59,10 @@ pub type Arguments = BTreeMap<String, Argument>;
 
 /// An argument, of hexadecimal floats.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(untagged)]
+#[serde(
+    untagged,
+    expecting = "an argument is a hexadecimal float in a string, a list of them, or a list of lists"
+)]
 pub enum Argument {
     /// One float.
     Float(String),
@@ -64,6 +70,55 @@ pub enum Argument {
     List(Vec<String>),
     /// Lists of floats; none of them reads as an empty list.
     Rows(Vec<Vec<String>>),
+}
+
+impl Argument {
+    fn shape(&self) -> Shape {
+        match self {
+            Self::Float(_) => Shape::Float,
+            Self::List(_) => Shape::List,
+            Self::Rows(_) => Shape::Rows,
+        }
+    }
+}
+
+/// The values of an operation's arguments, in its order.
+///
+/// # Errors
+/// One that is missing, that the operation does not have, of another shape, or that is no float of the format: in words.
+pub fn values<T: Real>(
+    operation: &Operation,
+    arguments: &Arguments,
+) -> Result<Vec<operations::Value<T>>, String> {
+    let known = |name: &String| operation.arguments.iter().any(|argument| argument.name == name);
+    if let Some(other) = arguments.keys().find(|name| !known(name)) {
+        return Err(format!("{} has no argument {other}", operation.name));
+    }
+    let value = |expected: &operations::Argument| {
+        let name = expected.name;
+        let argument = arguments.get(name).ok_or_else(|| format!("the argument {name} is missing"))?;
+        let float = |text: &String| {
+            let refused = || format!("{name}: \"{text}\" is no hexadecimal float of {}", T::FORMAT);
+            hex_float::parse::<T>(text).map_err(|_| refused())
+        };
+        let list = |texts: &Vec<String>| texts.iter().map(float).collect::<Result<Vec<T>, String>>();
+        Ok(match (expected.shape, argument) {
+            (Shape::Float, Argument::Float(text)) => operations::Value::Float(float(text)?),
+            (Shape::List, Argument::List(texts)) => operations::Value::List(list(texts)?),
+            (Shape::Rows, Argument::Rows(rows)) => {
+                operations::Value::Rows(rows.iter().map(list).collect::<Result<_, _>>()?)
+            }
+            (Shape::Rows, Argument::List(none)) if none.is_empty() => operations::Value::Rows(Vec::new()),
+            (shape, other) => {
+                return Err(format!(
+                    "{name} must be of the shape {}, not {}",
+                    shape.name(),
+                    other.shape().name()
+                ));
+            }
+        })
+    };
+    operation.arguments.iter().map(value).collect()
 }
 
 /// What a port says of itself: the answer to [`Request::Start`].
@@ -125,14 +180,15 @@ impl Answer {
         answer
     }
 
-    /// The one of the three that is there, unless there are several or none.
-    pub fn reply(self) -> Option<Reply> {
-        match (self.result, self.error, self.skipped) {
-            (Some(value), None, None) => Some(Reply::Result(value)),
-            (None, Some(word), None) => Some(Reply::Error(word)),
-            (None, None, Some(reason)) => Some(Reply::Skipped(reason)),
-            _ => None,
-        }
+    /// The one of the three that is there.
+    ///
+    /// # Errors
+    /// How many there are, if not one.
+    pub fn reply(self) -> Result<Reply, usize> {
+        let parts =
+            [self.result.map(Reply::Result), self.error.map(Reply::Error), self.skipped.map(Reply::Skipped)];
+        let mut parts: Vec<_> = parts.into_iter().flatten().collect();
+        if parts.len() > 1 { Err(parts.len()) } else { parts.pop().ok_or(0) }
     }
 
     /// In a line.
@@ -238,7 +294,7 @@ mod tests {
         }
         for line in [r#"{"seq":1}"#, r#"{"seq":1,"result":null}"#, r#"{"seq":1,"result":3,"error":"domain"}"#]
         {
-            assert_eq!(serde_json::from_str::<Answer>(line).unwrap().reply(), None, "{line}");
+            assert!(serde_json::from_str::<Answer>(line).unwrap().reply().is_err(), "{line}");
         }
     }
 

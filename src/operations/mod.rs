@@ -1,8 +1,8 @@
 //! The operations that a port of this measure implements: one list, by name, with the exact meaning of each.
 //!
 //! The port protocol, the vectors, the command `meaninfo check` and the page
-//! [`operations`](crate::book::operations) are driven by [`OPERATIONS`]. Arguments are the exact values of the floats, and the
-//! tolerance counts from the exact real result.
+//! [`operations`](crate::book::operations) are driven by [`OPERATIONS`]. Arguments are the exact values of the floats,
+//! and the tolerance counts from the exact real result.
 //!
 //! ```
 //! use mean_information::operations::{Answer, Value, find};
@@ -62,6 +62,23 @@ pub enum Shape {
     Rows,
 }
 
+impl Shape {
+    /// Its name in `vectors/v1/operations.json`.
+    ///
+    /// ```
+    /// use mean_information::operations::find;
+    /// let weights = find("expected.mean_information").expect("in the list").arguments[0];
+    /// assert_eq!((weights.name, weights.shape.name()), ("weights", "list"));
+    /// ```
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Float => "float",
+            Self::List => "list",
+            Self::Rows => "rows",
+        }
+    }
+}
+
 /// What a result is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
@@ -69,6 +86,16 @@ pub enum Outcome {
     Float,
     /// How many.
     Count,
+}
+
+impl Outcome {
+    /// Its name in `vectors/v1/operations.json`: `float` or `count`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Float => "float",
+            Self::Count => "count",
+        }
+    }
 }
 
 /// The value of an argument.

@@ -8,21 +8,6 @@ use std::collections::HashSet;
 use std::fs;
 use std::path::Path;
 
-fn shape_name(shape: Shape) -> &'static str {
-    match shape {
-        Shape::Float => "float",
-        Shape::List => "list",
-        Shape::Rows => "rows",
-    }
-}
-
-fn outcome_name(outcome: Outcome) -> &'static str {
-    match outcome {
-        Outcome::Float => "float",
-        Outcome::Count => "count",
-    }
-}
-
 #[test]
 fn names_are_unique_and_found() {
     let names: HashSet<_> = OPERATIONS.iter().map(|operation| operation.name).collect();
@@ -53,12 +38,12 @@ fn the_file_for_other_languages_has_the_list() {
         .iter()
         .map(|operation| {
             let argument = |argument: &mean_information::operations::Argument| {
-                json!({"name": argument.name, "shape": shape_name(argument.shape)})
+                json!({"name": argument.name, "shape": argument.shape.name()})
             };
             json!({
                 "name": operation.name,
                 "arguments": operation.arguments.iter().map(argument).collect::<Vec<_>>(),
-                "result": outcome_name(operation.result),
+                "result": operation.result.name(),
                 "domain": operation.domain,
                 "equation": operation.equation,
                 "function": operation.function,

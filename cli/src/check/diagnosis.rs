@@ -11,10 +11,10 @@
 
 use super::facts::facts;
 use super::judge::{Answered, Judged};
-use super::vectors::{Test, Trap, Vectors};
+use super::values::{Format, Trap};
+use super::vectors::{Test, Vectors};
 use super::{Verdict, Wrong};
 use crate::hex_float;
-use mean_information::Real;
 use std::collections::{HashMap, HashSet};
 
 /// An answer is that of a trap if it is as near to it as this, relatively.
@@ -157,7 +157,7 @@ pub(super) fn indices(cases: &[Case<'_>], holds: impl Fn(Case<'_>) -> bool) -> V
 fn trap(cases: &[Case<'_>], name: &str, note: &str) -> Option<Candidate> {
     let explained = indices(cases, |case| {
         let value = case.test.traps.get(name);
-        value.zip(case.answer()).is_some_and(|(trap, judged)| is_caught(trap, &judged.answer))
+        value.zip(case.answer()).is_some_and(|(trap, judged)| is_caught(*trap, &judged.answer))
     });
     let tests = cases.iter().filter(|case| case.judged.is_some() && case.test.traps.contains_key(name));
     (!explained.is_empty()).then(|| Candidate {
@@ -172,13 +172,12 @@ fn trap(cases: &[Case<'_>], name: &str, note: &str) -> Option<Candidate> {
 }
 
 /// Whether the answer is that of the trap.
-fn is_caught(trap: &Trap, answer: &Answered) -> bool {
+fn is_caught(trap: Trap, answer: &Answered) -> bool {
     match (trap, answer) {
-        (Trap::Count(trap), Answered::Count(count)) => trap == count,
-        (Trap::Text(name), Answered::Error(error)) => name == error,
-        (Trap::Text(trap), Answered::Float(_, text) | Answered::NotOfFormat(text)) => {
-            let [trap, answer] = [trap, text].map(|text| hex_float::parse::<f64>(text).ok());
-            trap.zip(answer).is_some_and(|(trap, answer)| is_near(trap, answer))
+        (Trap::Count(trap), Answered::Count(count)) => trap == *count,
+        (Trap::Float(trap), Answered::Float(answer, _)) => is_near(trap, *answer),
+        (Trap::Float(trap), Answered::NotOfFormat(text)) => {
+            hex_float::parse(text).is_ok_and(|answer| is_near(trap, answer))
         }
         _ => false,
     }
@@ -192,7 +191,7 @@ fn is_near(trap: f64, answer: f64) -> bool {
 
 /// About how many failures a trap explains, also among those of tests that lack it because enough have it.
 fn explained_by(cases: &[Case<'_>], trap: &Candidate) -> f64 {
-    let of_format = |format: &str| {
+    let of_format = |format: Format| {
         let in_format = |case: &&Case<'_>| case.test.format == format;
         let mut having: HashMap<&str, usize> = HashMap::new();
         for name in cases.iter().filter(in_format).flat_map(|case| case.test.traps.keys()) {
@@ -207,7 +206,7 @@ fn explained_by(cases: &[Case<'_>], trap: &Candidate) -> f64 {
         let failures = cases.iter().filter(in_format).filter(|case| case.wrong.is_some()).count();
         explained / own as f64 * failures as f64
     };
-    [f32::FORMAT, f64::FORMAT].into_iter().map(of_format).sum()
+    [Format::F32, Format::F64].into_iter().map(of_format).sum()
 }
 
 fn flag(cases: &[Case<'_>], name: &str, note: &str) -> Option<Candidate> {
@@ -231,7 +230,8 @@ fn flag(cases: &[Case<'_>], name: &str, note: &str) -> Option<Candidate> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::judge::{NEAREST, judge};
+    use super::super::judge::judge;
+    use super::super::values::NEAREST;
     use super::*;
     use crate::protocol::Reply;
     use serde_json::json;
@@ -252,7 +252,7 @@ mod tests {
         };
         let tests: Vec<_> = wants.iter().enumerate().map(test).collect();
         let vectors: Vectors = serde_json::from_value(json!({
-            "op": "", "tolerance_ulp": 0.5, "flags": {"Left": "", "Random": ""},
+            "op": "", "version": 1, "tolerance_ulp": 0.5, "flags": {"Left": "", "Random": ""},
             "traps": {"A": "", "B": "", "C": ""}, "tests": tests,
         }))
         .unwrap();

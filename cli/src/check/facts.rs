@@ -3,7 +3,7 @@
 use super::Wrong;
 use super::diagnosis::{Candidate, Case, Kind, indices};
 use super::judge::{Answered, Deviation, Judged};
-use super::vectors::Want;
+use super::values::{Format, Want};
 use crate::output::short;
 use crate::protocol::errors;
 use mean_information::Real;
@@ -56,14 +56,7 @@ const PLAIN_FACTS: &[PlainFact] = &[
     (
         "unreadable",
         "answers something else than a hexadecimal float in a string, or for a count a JSON integer",
-        |case| {
-            answered(case, |answer| match (answer, &case.test.want) {
-                (Answered::Unreadable(_), _) => true,
-                (Answered::Float(..), want) => matches!(want, Want::Count { .. }),
-                (Answered::Count(_), want) => matches!(want, Want::Enclosure { .. }),
-                _ => false,
-            })
-        },
+        |case| answered(case, |answer| matches!(answer, Answered::Unreadable { .. })),
     ),
     ("nan", "answers NaN where there is a number", |case| {
         numeric(case) && answered(case, |answer| matches!(answer, Answered::Float(x, _) if x.is_nan()))
@@ -99,7 +92,7 @@ fn numeric(case: Case<'_>) -> bool {
 }
 
 fn refused(case: Case<'_>) -> bool {
-    matches!(case.test.want, Want::Error { .. })
+    case.test.want == Want::Domain
 }
 
 /// Errors of other names, one fact each.
@@ -215,22 +208,22 @@ fn few_ulp(cases: &[Case<'_>]) -> Option<Candidate> {
 
 /// Answers with some digits right, by format, if most that are wrong are so.
 fn bits(cases: &[Case<'_>]) -> Vec<Candidate> {
-    let mut by_format: BTreeMap<&str, Vec<Number>> = BTreeMap::new();
-    let mut wrong: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut by_format: BTreeMap<Format, Vec<Number>> = BTreeMap::new();
+    let mut wrong: BTreeMap<Format, usize> = BTreeMap::new();
     for number in wrong_numbers(cases) {
-        *wrong.entry(&cases[number.case].test.format).or_default() += 1;
+        *wrong.entry(cases[number.case].test.format).or_default() += 1;
         let Deviation { ulp, relative, .. } = number.error;
         if ulp > FEW_ULP && relative < NEAR && relative > 0.0 {
-            by_format.entry(&cases[number.case].test.format).or_default().push(number);
+            by_format.entry(cases[number.case].test.format).or_default().push(number);
         }
     }
-    let candidate = |(format, mut numbers): (&str, Vec<Number>)| {
+    let candidate = |(format, mut numbers): (Format, Vec<Number>)| {
         numbers.sort_by(|a, b| a.error.relative.total_cmp(&b.error.relative));
         // The exponent: relative = 2^-bits, about.
         let (m, e) = numbers[numbers.len() / 2].error.relative.parts();
         let bits = -(e + m.ilog2() as i32);
         let is_single = |number: &Number| f32::nearest(number.value).widen() == number.value;
-        let single = format == f64::FORMAT && (SINGLE_BITS.contains(&bits) || numbers.iter().all(is_single));
+        let single = format == Format::F64 && (SINGLE_BITS.contains(&bits) || numbers.iter().all(is_single));
         let what = if single { ": something is computed in single precision" } else { "" };
         let note = format!("answers in {format} are right to about {bits} bits{what}");
         let explained: Vec<_> = numbers.into_iter().map(|number| number.case).collect();

@@ -4,14 +4,12 @@
 //! `+0`. With a larger one it lies within so many ulp, spacings of the format's floats at the answer, of some number of it.
 
 use super::exact::Exact;
-use super::vectors::{Test, Want};
+use super::values::{Format, NEAREST, Want};
+use super::vectors::Test;
 use crate::hex_float::{self, ParseError};
-use crate::protocol::Reply;
+use crate::protocol::{Reply, errors};
 use mean_information::Real;
 use serde_json::Value;
-
-/// The tolerance that means the nearest float.
-pub const NEAREST: f64 = 0.5;
 
 /// An answer, judged.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,14 +47,19 @@ pub enum Answered {
     /// A number that is no float of the format that was asked for.
     NotOfFormat(String),
     /// Something else.
-    Unreadable(String),
+    Unreadable {
+        /// As it was answered.
+        text: String,
+        /// What it should have been.
+        wanted: &'static str,
+    },
 }
 
 /// Judges a result or an error; both tolerances in ulp: that of the contract, and what the port claims.
 pub(super) fn judge(test: &Test, contract: f64, claim: f64, reply: &Reply) -> Judged {
-    let judge = |tolerance| match test.format.as_str() {
-        f32::FORMAT => judge_as::<f32>(test, tolerance, reply),
-        _ => judge_as::<f64>(test, tolerance, reply),
+    let judge = |tolerance| match test.format {
+        Format::F32 => judge_as::<f32>(test, tolerance, reply),
+        Format::F64 => judge_as::<f64>(test, tolerance, reply),
     };
     let judged = judge(contract);
     // A claim is about size: the sign is that of the exact result, and of a zero, all the same.
@@ -72,12 +75,21 @@ fn judge_as<T: Real>(test: &Test, tolerance: f64, reply: &Reply) -> Judged {
     let wants = || std::iter::once(&test.want).chain(&test.also);
     let without_error =
         |right: bool, answer: Answered| Judged { right, by_claim: false, answer, error: None };
+    // Of a refused test it is not known which of the two the operation answers.
+    let floats = matches!(test.want, Want::Enclosure { .. });
+    let counts = matches!(test.want, Want::Count(_));
+    let wanted = if counts {
+        "a count is a JSON integer, such as 3"
+    } else {
+        "a float is a hexadecimal float in a string, such as \"0x1.8p-2\""
+    };
+    let unreadable = |text: String| Answered::Unreadable { text, wanted };
     match reply {
         Reply::Error(name) => {
-            let right = wants().any(|want| matches!(want, Want::Error { error } if error == name));
+            let right = name == errors::DOMAIN && wants().any(|want| *want == Want::Domain);
             without_error(right, Answered::Error(name.clone()))
         }
-        Reply::Result(Value::String(text)) => match hex_float::parse::<T>(text) {
+        Reply::Result(Value::String(text)) if !counts => match hex_float::parse::<T>(text) {
             Ok(x) => {
                 let enclosures = wants().filter_map(|want| match want {
                     Want::Enclosure { lo, hi } if x.is_finite() => Some((&lo.value, &hi.value)),
@@ -94,17 +106,17 @@ fn judge_as<T: Real>(test: &Test, tolerance: f64, reply: &Reply) -> Judged {
                 }
             }
             Err(ParseError::NotRepresentable) => without_error(false, Answered::NotOfFormat(text.clone())),
-            Err(ParseError::Syntax) => without_error(false, Answered::Unreadable(format!("\"{text}\""))),
+            Err(ParseError::Syntax) => without_error(false, unreadable(format!("\"{text}\""))),
         },
         Reply::Result(value) => match value.as_u64() {
-            Some(n) => {
-                let right = wants().any(|want| *want == Want::Count { count: n });
+            Some(n) if !floats => {
+                let right = wants().any(|want| *want == Want::Count(n));
                 without_error(right, Answered::Count(n))
             }
-            None => without_error(false, Answered::Unreadable(value.to_string())),
+            _ => without_error(false, unreadable(value.to_string())),
         },
         // Nobody judges what was not answered.
-        Reply::Skipped(reason) => without_error(false, Answered::Unreadable(reason.clone())),
+        Reply::Skipped(reason) => without_error(false, unreadable(reason.clone())),
     }
 }
 
@@ -169,7 +181,7 @@ fn deviation<T: Real>(x: T, lo: &Exact, hi: &Exact) -> Deviation {
 
 #[cfg(test)]
 mod tests {
-    use super::super::vectors::Decimal;
+    use super::super::values::Decimal;
     use super::*;
     use serde_json::json;
 
@@ -179,7 +191,7 @@ mod tests {
     }
 
     fn test<T: Real>(want: Want, also: Vec<Want>) -> Test {
-        let (id, format) = (String::new(), T::FORMAT.to_owned());
+        let (id, format) = (String::new(), if T::PRECISION == 24 { Format::F32 } else { Format::F64 });
         Test {
             id,
             format,
@@ -273,17 +285,15 @@ mod tests {
 
     #[test]
     fn any_of_several_answers_is_right() {
-        let domain = || Want::Error { error: "domain".to_owned() };
-        let also = vec![enclosure("0.5", "0.5"), domain(), Want::Count { count: 3 }];
+        let counts = test::<f64>(Want::Count(3), vec![Want::Count(5)]);
+        let also = vec![enclosure("0.5", "0.5"), Want::Domain];
         let test = test::<f64>(enclosure("0.25", "0.25"), also);
         let judged = |reply: &Reply| judge(&test, NEAREST, 0.0, reply);
         for (reply, right) in [
             (Reply::Result("0x1p-2".into()), true),
             (Reply::Result("0x1p-1".into()), true),
             (Reply::Result("0x1p+0".into()), false),
-            (Reply::Result(json!(3)), true),
-            (Reply::Result(json!(4)), false),
-            (Reply::Result(json!(3.0)), false),
+            (Reply::Result(json!(3)), false),
             (Reply::Result(json!([])), false),
             (Reply::Result("0.25".into()), false),
             (Reply::Result("nan".into()), false),
@@ -291,6 +301,9 @@ mod tests {
             (Reply::error("range"), false),
         ] {
             assert_eq!(judged(&reply).right, right, "{reply:?}");
+        }
+        for (value, right) in [(json!(3), true), (json!(4), false), (json!(5), true), (json!(3.0), false)] {
+            assert_eq!(judge(&counts, 0.0, 0.0, &Reply::Result(value.clone())).right, right, "{value}");
         }
         // The nearest of them counts.
         let deviation = judged(&Reply::Result("0x1.1p-1".into())).error.unwrap();

@@ -3,9 +3,9 @@
 //! | module | holds |
 //! |---|---|
 //! | `exact` | numbers that are compared exactly |
-//! | `vectors` | the tests |
+//! | `values`, `vectors` | the tests |
 //! | `judge` | whether an answer is right |
-//! | `process`, `run` | the port, and the conversation with it |
+//! | `group`, `process`, `run` | the port, and the conversation with it |
 //! | `known` | failures that are expected |
 //! | `diagnosis`, `facts` | why tests failed |
 //! | `words`, `report`, `junit` | the verdict, written |
@@ -15,6 +15,7 @@ mod diagnosis;
 mod exact;
 mod facts;
 mod glob;
+mod group;
 mod judge;
 mod junit;
 mod known;
@@ -22,16 +23,18 @@ mod process;
 mod registry;
 mod report;
 mod run;
+mod values;
 mod vectors;
 mod words;
 
 pub use diagnosis::{Cause, Kind};
-pub use judge::{Answered, Deviation, Judged, NEAREST};
+pub use judge::{Answered, Deviation, Judged};
 pub use known::KnownFailures;
-pub use process::Trouble;
+pub use process::{End, Trouble};
 pub use registry::Registry;
 pub use run::Incident;
-pub use vectors::{Decimal, Test, Trap, Vectors, Want};
+pub use values::{Decimal, Format, MAX_TOLERANCE, NEAREST, Trap, Version, Want};
+pub use vectors::{Test, Vectors};
 
 use crate::failure::Failure;
 use crate::progress::Progress;
@@ -202,15 +205,15 @@ fn check(
     let declared = port.ops.contains(&vectors.op);
     let claims = port.claims.iter().filter(|(pattern, _)| glob::matches(pattern, &vectors.op));
     let claim = claims.map(|(_, claim)| *claim).fold(0.0, f64::max);
-    let has = |format: &String| port.formats.contains(format);
-    let asked: Vec<_> = vectors.tests.iter().filter(|test| declared && has(&test.format)).collect();
+    let has = |format: Format| port.formats.iter().any(|name| name == format.name());
+    let asked: Vec<_> = vectors.tests.iter().filter(|test| declared && has(test.format)).collect();
     (asked.len()..vectors.tests.len()).for_each(|_| progress.done());
     let mut outcomes = conversation.run(&vectors.op, &asked, || progress.done()).into_iter();
     let verdict = |test: &Test| {
         if !declared {
             return Verdict::Skipped("the port does not declare the operation".to_owned());
         }
-        if !has(&test.format) {
+        if !has(test.format) {
             return Verdict::Skipped(format!("the port does not declare {}", test.format));
         }
         let contract = test.tolerance_ulp.unwrap_or(vectors.tolerance_ulp);

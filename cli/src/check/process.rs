@@ -1,13 +1,14 @@
 //! The process of a port. Nothing it does can make this one wait beyond a limit of time or hold more than a limit of
 //! memory: its pipes are served by threads, and what they pass on is bounded.
 
+use super::group::Group;
 use crate::maps::one_line;
 use crate::protocol::{Line, read_line};
 use std::collections::VecDeque;
 use std::ffi::OsString;
 use std::fmt;
 use std::io::{self, BufReader, Read, Write};
-use std::process::{Child, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
+use std::process::{ChildStdin, ChildStdout};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender, SyncSender};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
@@ -22,20 +23,21 @@ const ERRORS_KEPT: usize = 4096;
 const ERRORS_SHOWN: (usize, usize) = (5, 500);
 /// How much of a wrong line is shown, in characters.
 const LINE_SHOWN: usize = 120;
-/// How long a process may take to end once its output has.
+/// How long a process may take to end once its output has, and what it has left behind to answer in its place.
 const GRACE: Duration = Duration::from_secs(1);
+/// How often it is looked whether it has ended without its output.
+const GLANCE: Duration = Duration::from_millis(20);
 const NAP: Duration = Duration::from_millis(2);
 
 /// A port that runs.
 #[derive(Debug)]
 pub(super) struct Process {
-    child: Child,
+    group: Group,
     /// None once it was told to stop.
     requests: Option<Sender<Vec<u8>>>,
     output: Receiver<Line>,
     errors: Arc<Mutex<VecDeque<u8>>>,
     error_reader: JoinHandle<()>,
-    ended: Option<ExitStatus>,
 }
 
 /// What went wrong with a port, not with an answer.
@@ -43,25 +45,51 @@ pub(super) struct Process {
 pub enum Trouble {
     /// No answer in time.
     TimeOut(Duration),
-    /// It ended, as the system says how.
-    Ended(String),
+    /// It ended, where an answer was due.
+    Ended(End),
     /// Its output ended, but it did not.
     ClosedOutput,
     /// A line without end.
     TooLong(String),
     /// A line that is no answer.
-    Malformed(String),
+    Malformed {
+        /// The line, or its beginning.
+        line: String,
+        /// Why it is none.
+        reason: String,
+    },
     /// The answer to another request than that which was due.
     WrongNumber {
         /// That of the answer.
-        answered: Option<u64>,
+        answered: u64,
         /// That which was due.
         due: u64,
     },
     /// A line that nobody asked for, after it was told to stop.
     Unasked(String),
+    /// It ended after it was told to stop, but not as it should.
+    Stopped(End),
     /// It ran on after it was told to stop.
     DoesNotStop(Duration),
+}
+
+/// How a port ended.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct End {
+    /// As the system says it.
+    pub status: String,
+    /// Whether another process held its output, and had to be killed.
+    pub left_behind: bool,
+}
+
+impl End {
+    fn left_behind(&self) -> &'static str {
+        if self.left_behind {
+            "; a process that it started lived on, held its standard output and was killed"
+        } else {
+            ""
+        }
+    }
 }
 
 impl fmt::Display for Trouble {
@@ -70,19 +98,22 @@ impl fmt::Display for Trouble {
             Self::TimeOut(limit) => {
                 write!(f, "no answer within {} s; does it flush every answer?", limit.as_secs_f64())
             }
-            Self::Ended(status) => write!(f, "it ended ({status}) instead of answering"),
+            Self::Ended(end) => {
+                write!(f, "it ended ({}) instead of answering{}", end.status, end.left_behind())
+            }
             Self::ClosedOutput => f.write_str("it closed its standard output instead of answering"),
             Self::TooLong(line) => {
                 write!(f, "a line of more than {LINE_LIMIT} bytes, which begins with {line}")
             }
-            Self::Malformed(line) => write!(f, "a line that is no answer: {line}"),
-            Self::WrongNumber { answered: Some(answered), due } => {
+            Self::Malformed { line, reason } => write!(f, "a line that is no answer, {reason}: {line}"),
+            Self::WrongNumber { answered, due } => {
                 write!(f, "the answer to request {answered} where that to {due} was due")
             }
-            Self::WrongNumber { answered: None, due } => {
-                write!(f, "an answer without number where that to request {due} was due")
-            }
             Self::Unasked(line) => write!(f, "a line after it was told to stop: {line}"),
+            Self::Stopped(end) if end.left_behind => {
+                write!(f, "it ended ({}) after it was told to stop{}", end.status, end.left_behind())
+            }
+            Self::Stopped(end) => write!(f, "it ended ({}, not 0) after it was told to stop", end.status),
             Self::DoesNotStop(limit) => {
                 write!(f, "it ran on for {} s after it was told to stop", limit.as_secs_f64())
             }
@@ -96,16 +127,8 @@ impl Process {
     /// # Errors
     /// A command that the system cannot start.
     pub(super) fn start(command: &[OsString]) -> io::Result<Self> {
-        let mut parts = command.iter();
-        let mut start = Command::new(parts.next().map(OsString::as_os_str).unwrap_or_default());
-        start.args(parts).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
-        #[cfg(unix)]
-        {
-            // Whatever a script starts is killed with it.
-            use std::os::unix::process::CommandExt;
-            start.process_group(0);
-        }
-        let mut child = start.spawn()?;
+        let mut group = Group::start(command)?;
+        let child = &mut group.child;
         let (Some(stdin), Some(stdout), Some(stderr)) =
             (child.stdin.take(), child.stdout.take(), child.stderr.take())
         else {
@@ -118,7 +141,7 @@ impl Process {
         let errors = Arc::new(Mutex::new(VecDeque::new()));
         let kept = Arc::clone(&errors);
         let error_reader = thread::spawn(move || keep_end(stderr, &kept));
-        Ok(Self { child, requests: Some(requests), output, errors, error_reader, ended: None })
+        Ok(Self { group, requests: Some(requests), output, errors, error_reader })
     }
 
     /// Sends a line; where the port does not read, it waits in memory.
@@ -131,14 +154,13 @@ impl Process {
 
     /// Its next line.
     pub(super) fn receive(&mut self, limit: Duration) -> Result<Vec<u8>, Trouble> {
-        match self.output.recv_timeout(limit) {
-            Ok(Line::Whole(line)) => Ok(line),
-            Ok(Line::TooLong(line)) => Err(Trouble::TooLong(shown(&line))),
-            Ok(Line::End) | Err(RecvTimeoutError::Disconnected) => Err(match self.wait(GRACE.min(limit)) {
-                Some(status) => Trouble::Ended(status.to_string()),
-                None => Trouble::ClosedOutput,
-            }),
-            Err(RecvTimeoutError::Timeout) => Err(Trouble::TimeOut(limit)),
+        match self.next_line(limit) {
+            Some(Line::Whole(line)) => Ok(line),
+            Some(Line::TooLong(line)) => Err(Trouble::TooLong(shown(&line))),
+            Some(Line::End) => {
+                Err(self.ended(GRACE.min(limit), false).map_or(Trouble::ClosedOutput, Trouble::Ended))
+            }
+            None => Err(self.ended(Duration::ZERO, true).map_or(Trouble::TimeOut(limit), Trouble::Ended)),
         }
     }
 
@@ -147,63 +169,51 @@ impl Process {
         self.send(farewell);
         self.requests = None;
         let deadline = Instant::now() + limit;
-        match self.output.recv_timeout(limit) {
-            Ok(Line::Whole(line) | Line::TooLong(line)) => return Err(Trouble::Unasked(shown(&line))),
-            Err(RecvTimeoutError::Timeout) => return Err(Trouble::DoesNotStop(limit)),
-            Ok(Line::End) | Err(RecvTimeoutError::Disconnected) => {}
-        }
-        match self.wait(deadline.saturating_duration_since(Instant::now()).max(GRACE.min(limit))) {
-            Some(status) if status.success() => Ok(()),
-            Some(status) => Err(Trouble::Ended(status.to_string())),
-            None => Err(Trouble::DoesNotStop(limit)),
+        let left_behind = match self.next_line(limit) {
+            Some(Line::Whole(line) | Line::TooLong(line)) => return Err(Trouble::Unasked(shown(&line))),
+            Some(Line::End) => false,
+            None => true,
+        };
+        let rest = deadline.saturating_duration_since(Instant::now()).max(GRACE.min(limit));
+        let end = self.ended(if left_behind { Duration::ZERO } else { rest }, left_behind);
+        let end = end.ok_or(Trouble::DoesNotStop(limit))?;
+        if self.group.succeeded() && !left_behind { Ok(()) } else { Err(Trouble::Stopped(end)) }
+    }
+
+    /// Its next line, or the end of its output; none if neither comes in time. Once it has ended, what it has left behind
+    /// has only a moment for more.
+    fn next_line(&mut self, limit: Duration) -> Option<Line> {
+        let mut deadline = Instant::now() + limit;
+        let mut has_ended = false;
+        loop {
+            let rest = deadline.saturating_duration_since(Instant::now());
+            match self.output.recv_timeout(GLANCE.min(rest)) {
+                Ok(line) => return Some(line),
+                Err(RecvTimeoutError::Disconnected) => return Some(Line::End),
+                Err(RecvTimeoutError::Timeout) if rest <= GLANCE => return None,
+                Err(RecvTimeoutError::Timeout) => {}
+            }
+            if !has_ended && self.group.has_ended() {
+                has_ended = true;
+                deadline = deadline.min(Instant::now() + GRACE);
+            }
         }
     }
 
-    /// How it ended, if it does so in time.
-    fn wait(&mut self, limit: Duration) -> Option<ExitStatus> {
-        let deadline = Instant::now() + limit;
-        while self.ended.is_none() {
-            self.ended = self.child.try_wait().ok().flatten();
-            if Instant::now() > deadline {
-                break;
-            }
-            thread::sleep(NAP);
-        }
-        self.ended
-    }
-
-    /// Ends it, with all it started.
-    fn kill(&mut self) {
-        // One that has ended was waited for; its number may be another's by now.
-        if self.ended.is_some() {
-            return;
-        }
-        #[cfg(unix)]
-        {
-            use rustix::process::{Pid, Signal, kill_process_group};
-            if let Some(group) = Pid::from_raw(self.child.id() as i32) {
-                let _ = kill_process_group(group, Signal::KILL);
-            }
-        }
-        let _ = self.child.kill();
-        self.wait(GRACE);
+    /// How it has ended, if it does so in time.
+    fn ended(&mut self, limit: Duration, left_behind: bool) -> Option<End> {
+        self.group.wait(limit).map(|status| End { status: status.to_string(), left_behind })
     }
 
     /// Ends it; the last lines of its standard error.
     pub(super) fn end(mut self) -> Vec<String> {
-        self.kill();
+        self.group.kill();
         let deadline = Instant::now() + GRACE / 4;
         while !self.error_reader.is_finished() && Instant::now() < deadline {
             thread::sleep(NAP);
         }
         let bytes: Vec<u8> = lock(&self.errors).iter().copied().collect();
         last_lines(&String::from_utf8_lossy(&bytes))
-    }
-}
-
-impl Drop for Process {
-    fn drop(&mut self) {
-        self.kill();
     }
 }
 

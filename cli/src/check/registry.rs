@@ -1,7 +1,7 @@
 //! The list of operations, written: its JSON is that of `vectors/v1/operations.json`.
 
 use crate::output::{Record, Report, Value, folded, text_table};
-use mean_information::operations::{Argument, OPERATIONS, Operation, Outcome, Shape};
+use mean_information::operations::{Argument, OPERATIONS, Operation, Shape};
 
 /// Equations are folded to about so many characters in the table.
 const EQUATION_WIDTH: usize = 60;
@@ -9,21 +9,6 @@ const EQUATION_WIDTH: usize = 60;
 /// Every operation of the protocol.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Registry;
-
-fn shape(argument: &Argument) -> &'static str {
-    match argument.shape {
-        Shape::Float => "float",
-        Shape::List => "list",
-        Shape::Rows => "rows",
-    }
-}
-
-fn outcome(operation: &Operation) -> &'static str {
-    match operation.result {
-        Outcome::Float => "float",
-        Outcome::Count => "count",
-    }
-}
 
 /// The arguments as they are written in a formula: `p`, `cells[]`, `particles[][]`.
 fn arguments(operation: &Operation) -> Vec<String> {
@@ -41,7 +26,7 @@ fn record(operation: &Operation, arguments: Value) -> Record {
     Record(vec![
         ("name", text(operation.name)),
         ("arguments", arguments),
-        ("result", text(outcome(operation))),
+        ("result", text(operation.result.name())),
         ("domain", text(operation.domain)),
         ("equation", text(operation.equation)),
         ("function", text(operation.function)),
@@ -70,7 +55,7 @@ impl Report for Registry {
     fn json(&self) -> Value {
         let argument = |argument: &Argument| {
             let text = |text: &str| Value::Text(text.to_owned());
-            Record(vec![("name", text(argument.name)), ("shape", text(shape(argument)))])
+            Record(vec![("name", text(argument.name)), ("shape", text(argument.shape.name()))])
         };
         let nested = |operation: &Operation| {
             record(operation, Value::Records(operation.arguments.iter().map(argument).collect()))

@@ -1,6 +1,7 @@
 //! The verdict: a table with the causes of failures below it, JSON with everything, CSV with the numbers.
 
 use super::run::request;
+use super::values::Format;
 use super::vectors::Test;
 use super::{Answered, Cause, Check, Checked, Counts, Incident, Verdict, Wrong, words};
 use crate::maps::one_line;
@@ -19,12 +20,12 @@ const TROUBLES_SHOWN: usize = 3;
 
 impl Checked {
     /// Each format with the verdicts of its tests, in the order of the vectors.
-    fn formats(&self) -> Vec<(&str, Vec<&Verdict>)> {
-        let mut formats: Vec<(&str, Vec<&Verdict>)> = Vec::new();
+    fn formats(&self) -> Vec<(Format, Vec<&Verdict>)> {
+        let mut formats: Vec<(Format, Vec<&Verdict>)> = Vec::new();
         for (test, verdict) in self.vectors.tests.iter().zip(&self.verdicts) {
             match formats.iter_mut().find(|(format, _)| *format == test.format) {
                 Some((_, verdicts)) => verdicts.push(verdict),
-                None => formats.push((&test.format, vec![verdict])),
+                None => formats.push((test.format, vec![verdict])),
             }
         }
         formats
@@ -84,25 +85,31 @@ impl Checked {
             let _ = writeln!(text, "    wanted {}", words::wanted(test));
             let _ = writeln!(text, "    answered {}", words::answered(wrong));
         }
-        let troubles = self.failures().filter_map(|(test, wrong)| match wrong {
-            Wrong::Trouble(incident) => Some((test, incident)),
-            _ => None,
-        });
-        for (test, incident) in troubles.take(TROUBLES_SHOWN) {
+        let troubles = || {
+            self.failures().filter_map(|(test, wrong)| match wrong {
+                Wrong::Trouble(incident) => Some((test, incident)),
+                _ => None,
+            })
+        };
+        for (test, incident) in troubles().take(TROUBLES_SHOWN) {
             let _ = writeln!(text, "  trouble: {}", one_line(&test.id));
             let _ = writeln!(text, "    {}", words::arguments(test));
             let _ = writeln!(text, "    {}", incident.trouble);
             errors(text, incident);
         }
+        let more = troubles().count().saturating_sub(TROUBLES_SHOWN);
+        if more > 0 {
+            let _ = writeln!(text, "  trouble with {more} more requests: --format json has all of it");
+        }
     }
 
-    fn record(&self, format: &str, verdicts: &[&Verdict]) -> Record {
+    fn record(&self, format: Format, verdicts: &[&Verdict]) -> Record {
         let counts = Counts::of(verdicts.iter().copied());
         let count = |n: usize| Value::Count(n as u64);
         let cause = self.causes.first().map(|cause| cause.name.clone()).unwrap_or_default();
         Record(vec![
             ("operation", Value::Text(self.vectors.op.clone())),
-            ("format", Value::Text(format.to_owned())),
+            ("format", Value::Text(format.to_string())),
             ("declared", Value::Flag(self.declared)),
             ("tolerance_ulp", Value::Given(Some(self.vectors.tolerance_ulp))),
             ("claimed_ulp", Value::Given(self.claimed)),
@@ -117,7 +124,8 @@ impl Checked {
     }
 
     fn json(&self) -> Record {
-        let formats = self.formats().iter().map(|(format, verdicts)| self.record(format, verdicts)).collect();
+        let formats =
+            self.formats().iter().map(|(format, verdicts)| self.record(*format, verdicts)).collect();
         let failures = self.failures().map(|(test, wrong)| self.failure(test, wrong)).collect();
         let worst = self.worst().map(|(test, _)| test.id.clone()).unwrap_or_default();
         Record(vec![
@@ -142,13 +150,13 @@ impl Checked {
                 Answered::Error(text)
                 | Answered::Float(_, text)
                 | Answered::NotOfFormat(text)
-                | Answered::Unreadable(text) => text.clone(),
+                | Answered::Unreadable { text, .. } => text.clone(),
             },
             _ => String::new(),
         };
         Record(vec![
             ("id", Value::Text(test.id.clone())),
-            ("format", Value::Text(test.format.clone())),
+            ("format", Value::Text(test.format.to_string())),
             ("request", Value::Text(request(&self.vectors.op, test, 1).line())),
             ("wanted", Value::Text(words::wanted(test))),
             ("answer", Value::Text(answer)),
@@ -211,7 +219,7 @@ impl Check {
     }
 
     fn summary(&self) -> String {
-        let row = |operation: &Checked, format: &str, verdicts: &[&Verdict]| {
+        let row = |operation: &Checked, format: Format, verdicts: &[&Verdict]| {
             let counts = Counts::of(verdicts.iter().copied());
             let tolerance = match operation.claimed {
                 Some(claim) => format!("{claim} claimed"),
@@ -219,7 +227,7 @@ impl Check {
             };
             [
                 operation.vectors.op.clone(),
-                format.to_owned(),
+                format.to_string(),
                 counts.cases.to_string(),
                 counts.passed.to_string(),
                 counts.failed.to_string(),
@@ -231,7 +239,7 @@ impl Check {
         let mut rows = Vec::new();
         for operation in self.operations.iter().filter(|operation| operation.declared) {
             rows.extend(
-                operation.formats().iter().map(|(format, verdicts)| row(operation, format, verdicts)),
+                operation.formats().iter().map(|(format, verdicts)| row(operation, *format, verdicts)),
             );
         }
         let header = [

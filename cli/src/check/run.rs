@@ -2,17 +2,16 @@
 //! started again.
 
 use super::process::{Process, Trouble, shown};
+use super::values::MAX_TOLERANCE;
 use super::vectors::Test;
 use crate::failure::Failure;
 use crate::maps::one_line;
 use crate::protocol::{Answer, Reply, Request, Run, VERSION, Welcome};
 use serde::Deserialize;
 use serde_json::Value;
+use serde_json::error::Category;
 use std::ffi::OsString;
 use std::time::Duration;
-
-/// Who may be further off than this, in ulp, promises nothing: in `f64` half of the digits.
-const MAX_CLAIM: f64 = 67_108_864.0;
 
 /// Requests that are sent before the first of them is answered.
 const AHEAD: usize = 32;
@@ -176,7 +175,7 @@ pub(super) fn command_line(command: &[OsString]) -> String {
 /// The request of a test.
 pub(super) fn request(op: &str, test: &Test, seq: u64) -> Request {
     let Test { format, args, .. } = test;
-    Request::Run(Run { seq, op: op.to_owned(), format: format.clone(), args: args.clone() })
+    Request::Run(Run { seq, op: op.to_owned(), format: format.to_string(), args: args.clone() })
 }
 
 /// Starts a port and reads what it says of itself; or what is wrong.
@@ -210,19 +209,36 @@ fn read_welcome(line: &[u8]) -> Result<Welcome, String> {
         return Err("it has no operations: \"ops\" is empty".to_owned());
     }
     if let Some((pattern, claim)) =
-        welcome.claims.iter().find(|(_, claim)| !(0.0..=MAX_CLAIM).contains(*claim))
+        welcome.claims.iter().find(|(_, claim)| !(0.0..=MAX_TOLERANCE).contains(*claim))
     {
-        return Err(format!("it claims {claim} ulp for {pattern}; a claim is 0 to {MAX_CLAIM}"));
+        return Err(format!("it claims {claim} ulp for {pattern}; a claim is 0 to {MAX_TOLERANCE}"));
     }
     Ok(welcome)
 }
 
 /// The answer that is due.
 fn read_answer(line: &[u8], due: u64) -> Result<Reply, Trouble> {
-    let malformed = || Trouble::Malformed(shown(line));
-    let answer: Answer = serde_json::from_slice(line).map_err(|_| malformed())?;
-    if answer.seq != Some(due) {
-        return Err(Trouble::WrongNumber { answered: answer.seq, due });
+    let malformed = |reason: String| Trouble::Malformed { line: shown(line), reason };
+    let json = |error: serde_json::Error| match error.classify() {
+        Category::Eof => "which is cut off".to_owned(),
+        _ => format!("which is not JSON ({})", error.to_string().replace("at line 1 column", "at column")),
+    };
+    let message: Value = serde_json::from_slice(line).map_err(|error| malformed(json(error)))?;
+    if !message.is_object() {
+        return Err(malformed("which is JSON, but not an object".to_owned()));
     }
-    answer.reply().ok_or_else(malformed)
+    match &message["seq"] {
+        Value::Null => return Err(malformed(format!("which has no \"seq\", here {due}"))),
+        seq if *seq == due => {}
+        seq => match seq.as_u64() {
+            Some(answered) => return Err(Trouble::WrongNumber { answered, due }),
+            None => return Err(malformed(format!("whose \"seq\" is {seq}, not the integer {due}"))),
+        },
+    }
+    Answer::deserialize(message)
+        .map_err(|error| malformed(format!("of which a part is of the wrong type ({error})")))?
+        .reply()
+        .map_err(|parts| {
+            malformed(format!("which has {parts} of \"result\", \"error\" and \"skipped\", not one"))
+        })
 }

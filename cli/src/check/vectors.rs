@@ -1,13 +1,13 @@
 //! The vectors as they are written: `vectors/README.md`.
 
-use super::exact::Exact;
+use super::values::{Format, NEAREST, Trap, Version, Want, some_tolerance, tolerance};
 use crate::failure::Failure;
-use crate::hex_float;
 use crate::maps::Problem;
-use crate::protocol::{Argument, Arguments};
-use mean_information::Real;
+use crate::protocol::{Arguments, values};
+use mean_information::operations::{Operation, Outcome, find};
 use mean_information::vectors::FILES;
-use serde::{Deserialize, Deserializer};
+use serde::Deserialize;
+use serde_json::Value;
 use std::collections::{BTreeMap, HashSet};
 use std::fs;
 use std::path::Path;
@@ -17,11 +17,24 @@ const REGISTRY: &str = "operations.json";
 
 /// The tests of one operation.
 #[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Vectors {
     /// The operation.
     pub op: String,
+    /// That of the folder.
+    pub version: Version,
+    /// The exact result, in words.
+    #[serde(default)]
+    pub formula: String,
     /// How far an answer may be off; 0.5 means the nearest float.
+    #[serde(deserialize_with = "tolerance")]
     pub tolerance_ulp: f64,
+    /// What that means, in words.
+    #[serde(default)]
+    pub verdict: String,
+    /// Who computed the right answers.
+    #[serde(default)]
+    pub source: String,
     /// What a test with a flag is about, by the name of the flag.
     pub flags: BTreeMap<String, String>,
     /// What an implementation did whose answer is that of a trap, by the name of the trap.
@@ -33,11 +46,12 @@ pub struct Vectors {
 
 /// One test.
 #[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Test {
     /// Means this test for ever.
     pub id: String,
-    /// `f32` or `f64`.
-    pub format: String,
+    /// Which floats are meant.
+    pub format: Format,
     /// By name.
     pub args: Arguments,
     /// The right answer.
@@ -46,6 +60,7 @@ pub struct Test {
     #[serde(default)]
     pub also: Vec<Want>,
     /// A larger tolerance than that of the file.
+    #[serde(default, deserialize_with = "some_tolerance")]
     pub tolerance_ulp: Option<f64>,
     /// Names of what it is about.
     #[serde(default)]
@@ -53,56 +68,6 @@ pub struct Test {
     /// What known mistakes answer.
     #[serde(default)]
     pub traps: BTreeMap<String, Trap>,
-}
-
-/// A right answer.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(untagged)]
-pub enum Want {
-    /// The exact result lies between these decimals.
-    Enclosure {
-        /// The lower end.
-        lo: Decimal,
-        /// The upper end.
-        hi: Decimal,
-    },
-    /// The error of this name: `domain`.
-    Error {
-        /// Its name.
-        error: String,
-    },
-    /// So many.
-    Count {
-        /// The number.
-        count: u64,
-    },
-}
-
-/// A decimal, as it is written and as a number.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Decimal {
-    /// Its digits.
-    pub text: String,
-    pub(super) value: Exact,
-}
-
-impl<'de> Deserialize<'de> for Decimal {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let text = String::deserialize(deserializer)?;
-        let value = Exact::decimal(&text);
-        let value = value.ok_or_else(|| serde::de::Error::custom(format!("{text} is not a decimal")))?;
-        Ok(Self { text, value })
-    }
-}
-
-/// What a mistake answers.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(untagged)]
-pub enum Trap {
-    /// A count.
-    Count(u64),
-    /// A hexadecimal float, or the name of an error.
-    Text(String),
 }
 
 impl Vectors {
@@ -143,50 +108,76 @@ impl Vectors {
     }
 
     fn parse(text: &str) -> Result<Self, String> {
-        let vectors: Self =
-            serde_json::from_str(text).map_err(|e| format!("is not a file of vectors: {e}"))?;
-        for test in &vectors.tests {
-            let wants = std::iter::once(&test.want).chain(&test.also);
-            let empty =
-                |want: &Want| matches!(want, Want::Enclosure { lo, hi } if lo.value.cmp(&hi.value).is_gt());
-            if wants.clone().any(empty) {
-                return Err(format!("{}: an enclosure that holds nothing", test.id));
-            }
-            if !test.is_in_format() {
-                return Err(format!(
-                    "{}: arguments that are no floats of its format, {}",
-                    test.id, test.format
-                ));
-            }
-            if let Some(flag) = test.flags.iter().find(|flag| !vectors.flags.contains_key(*flag)) {
-                return Err(format!("{}: nothing says what the flag {flag} means", test.id));
-            }
-            if let Some(trap) = test.traps.keys().find(|trap| !vectors.traps.contains_key(*trap)) {
-                return Err(format!("{}: nothing says what the trap {trap} means", test.id));
-            }
+        let refused = |what: String| format!("is not a file of vectors: {what}");
+        let vectors: Self = serde_json::from_str(text).map_err(|error| refused(explained(text, &error)))?;
+        let Self { op, tolerance_ulp, tests, .. } = &vectors;
+        let operation = find(op).ok_or_else(|| format!("{op} is no operation of `meaninfo check --list`"))?;
+        if (*tolerance_ulp == 0.0) != (operation.result == Outcome::Count) {
+            return Err(format!(
+                "a tolerance of {tolerance_ulp} ulp for {op}: counts have 0, floats {NEAREST} or more"
+            ));
         }
+        if tests.is_empty() {
+            return Err("has no tests".to_owned());
+        }
+        let problem = tests.iter().find_map(|test| Some((test, vectors.problem_of(operation, test)?)));
+        problem.map_or(Ok(()), |(test, what)| Err(format!("{}: {what}", test.id)))?;
         Ok(vectors)
     }
-}
 
-impl Test {
-    /// Whether there is such a format, and it has all arguments.
-    fn is_in_format(&self) -> bool {
-        let has = match self.format.as_str() {
-            f32::FORMAT => is_float::<f32>,
-            f64::FORMAT => is_float::<f64>,
-            _ => return false,
+    /// What is wrong with a test whose parts make sense alone.
+    fn problem_of(&self, operation: &Operation, test: &Test) -> Option<String> {
+        if test.id.is_empty() {
+            return Some("a test whose id is empty".to_owned());
+        }
+        if let Err(what) = match test.format {
+            Format::F32 => values::<f32>(operation, &test.args).map(drop),
+            Format::F64 => values::<f64>(operation, &test.args).map(drop),
+        } {
+            return Some(what);
+        }
+        let counts = operation.result == Outcome::Count;
+        let of_another_kind = |want: &Want| match want {
+            Want::Enclosure { .. } => counts,
+            Want::Count(_) => !counts,
+            Want::Domain => false,
         };
-        self.args.values().all(|argument| match argument {
-            Argument::Float(text) => has(text),
-            Argument::List(texts) => texts.iter().all(|text| has(text)),
-            Argument::Rows(rows) => rows.iter().flatten().all(|text| has(text)),
+        let outcome = operation.result.name();
+        if std::iter::once(&test.want).chain(&test.also).any(of_another_kind) {
+            return Some(format!("what is wanted is not the result of {}: a {outcome}", operation.name));
+        }
+        if let Some(own) = test.tolerance_ulp.filter(|own| counts || *own <= self.tolerance_ulp) {
+            return Some(format!(
+                "a tolerance of {own} ulp, not above that of the file, {}",
+                self.tolerance_ulp
+            ));
+        }
+        if let Some(flag) = test.flags.iter().find(|flag| !self.flags.contains_key(*flag)) {
+            return Some(format!("nothing says what the flag {flag} means"));
+        }
+        if let Some(trap) = test.traps.keys().find(|trap| !self.traps.contains_key(*trap)) {
+            return Some(format!("nothing says what the trap {trap} means"));
+        }
+        let trap = test.traps.iter().find(|(_, trap)| matches!(trap, Trap::Count(_)) != counts);
+        trap.map(|(name, _)| {
+            format!("the trap {name} is not what {} can answer: a {outcome}", operation.name)
         })
     }
 }
 
-fn is_float<T: Real>(text: &str) -> bool {
-    hex_float::parse::<T>(text).is_ok()
+/// Why a file cannot be read: of the first test that is refused, its id.
+fn explained(text: &str, error: &serde_json::Error) -> String {
+    let file: Value = serde_json::from_str(text).unwrap_or_default();
+    let tests = file["tests"].as_array().into_iter().flatten().enumerate();
+    let refused = tests.filter_map(|(index, test)| {
+        let what = Test::deserialize(test).err()?;
+        Some(match test["id"].as_str() {
+            Some(id) => format!("{id}: {what}"),
+            None => format!("test {} of \"tests\": {what}", index + 1),
+        })
+    });
+    // What is wrong with the rest of the file has a line and a column.
+    refused.into_iter().next().unwrap_or_else(|| error.to_string())
 }
 
 /// An id and an operation mean one thing.

@@ -1,13 +1,16 @@
 //! Tests, answers and failures in words.
 
 use super::judge::{Answered, Judged};
-use super::vectors::{Test, Want};
+use super::values::Want;
+use super::vectors::Test;
 use super::{Cause, Kind, Wrong};
 use crate::hex_float;
 use crate::maps::one_line;
 use crate::output::{Number, short};
-use crate::protocol::Argument;
+use crate::protocol::{Argument, errors};
 
+/// So many characters of an answer that cannot be read are shown.
+const ANSWER_SHOWN: usize = 120;
 /// So many floats of a list are shown.
 const SHOWN: usize = 6;
 
@@ -44,8 +47,8 @@ pub(super) fn wanted(test: &Test) -> String {
     let wants = std::iter::once(&test.want).chain(&test.also).map(|want| match want {
         Want::Enclosure { lo, hi } if lo == hi => lo.text.clone(),
         Want::Enclosure { lo, hi } => format!("from {} to {}", lo.text, hi.text),
-        Want::Error { error } => format!("the error \"{error}\""),
-        Want::Count { count } => count.to_string(),
+        Want::Domain => format!("the error \"{}\"", errors::DOMAIN),
+        Want::Count(count) => count.to_string(),
     });
     wants.collect::<Vec<_>>().join(", or ")
 }
@@ -60,12 +63,18 @@ pub(super) fn answered(wrong: &Wrong) -> String {
                 Answered::Count(count) => count.to_string(),
                 Answered::Error(word) => format!("the error \"{}\"", one_line(word)),
                 Answered::NotOfFormat(text) => format!("{}, which the format does not have", one_line(text)),
-                Answered::Unreadable(text) => format!("{}, which is no result", one_line(text)),
+                Answered::Unreadable { text, wanted } => format!("{}: {wanted}", cut(text)),
             }
         }
         Wrong::Trouble(incident) => incident.trouble.to_string(),
         Wrong::NotRun(reason) => reason.clone(),
     }
+}
+
+/// What may be long, in one line.
+fn cut(text: &str) -> String {
+    let start: String = text.chars().take(ANSWER_SHOWN).collect();
+    one_line(&start) + if start.len() < text.len() { "..." } else { "" }
 }
 
 /// A cause with its evidence; of so many failures.

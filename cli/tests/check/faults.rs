@@ -3,8 +3,11 @@
 use crate::Test;
 use crate::fixture::Vectors;
 
-pub(crate) const TESTS: &[Test] =
-    &[("faults_are_named", faults_are_named), ("a_fault_of_one_test_is_found", a_fault_of_one_test_is_found)];
+pub(crate) const TESTS: &[Test] = &[
+    ("faults_are_named", faults_are_named),
+    ("unreadable_answers_are_explained", unreadable_answers_are_explained),
+    ("a_fault_of_one_test_is_found", a_fault_of_one_test_is_found),
+];
 
 /// Port, operation, kind and name of the first cause, what its note says, failures of the operation, and how many of
 /// them it explains.
@@ -51,6 +54,18 @@ fn faults_are_named() {
         assert_eq!(status, 1, "{fault}");
         let section = table.split(&format!("\n{op}: ")).nth(1).unwrap();
         assert!(section.lines().nth(1).unwrap().contains(note), "{fault}: {table}");
+    }
+}
+
+/// What it should have been is told beside what was answered.
+fn unreadable_answers_are_explained() {
+    let vectors = Vectors::new();
+    for (fault, op, part) in [
+        ("numbers", "cell.information", ": a float is a hexadecimal float in a string, such as \"0x1.8p-2\""),
+        ("text-count", "map.observed", "answered \"0x1p+0\": a count is a JSON integer, such as 3"),
+    ] {
+        let (_, table) = vectors.check(fault, &["--ops", op]);
+        assert!(table.contains(part), "{fault}: {table}");
     }
 }
 

@@ -1,12 +1,13 @@
-//! `meaninfo port` and `meaninfo check`: the reference passes, faulty ports are named for what they are, and no port, however it
-//! misbehaves, makes the command hang.
+//! `meaninfo port` and `meaninfo check`: the reference passes, faulty ports are named for what they are, and no port,
+//! however it misbehaves, makes the command hang.
 //!
-//! The ports are this program itself, started with the name of a fault (`ports`); hence it has a `main` of its own, which runs
-//! the tests whose names contain one of the arguments, or all.
+//! The ports are this program itself, started with the name of a fault (`ports`); hence it has a `main` of its own, which
+//! runs the tests whose names contain one of the arguments, or all.
 
 #[path = "../common/mod.rs"]
 mod common;
 mod faults;
+mod files;
 mod fixture;
 mod ports;
 mod reference;
@@ -35,7 +36,7 @@ fn main() -> ExitCode {
     let filters: Vec<_> = arguments.iter().filter(|argument| !argument.starts_with('-')).collect();
     let chosen =
         |name: &str| filters.is_empty() || filters.iter().any(|filter| name.contains(filter.as_str()));
-    let all = [reference::TESTS, faults::TESTS, troubles::TESTS, verdicts::TESTS].concat();
+    let all = [reference::TESTS, faults::TESTS, troubles::TESTS, verdicts::TESTS, files::TESTS].concat();
     let tests: Vec<Test> = all.into_iter().filter(|(name, _)| chosen(name)).collect();
     if arguments.iter().any(|argument| argument == "--list") {
         for (name, _) in &tests {

@@ -76,6 +76,10 @@ pub(crate) fn serve(fault: &str, rest: &[String]) {
                 "ignores-stop" => sleep(),
                 "talks-at-stop" => "bye".to_owned(),
                 "exits-3-at-stop" => exit(3),
+                "leaves-at-stop" => {
+                    leave_behind();
+                    return;
+                }
                 _ => return,
             },
         };
@@ -105,11 +109,15 @@ fn sleep() -> ! {
 
 /// Leaves a process that holds its pipes.
 fn orphan(rest: &[String]) {
-    let program = std::env::current_exe().unwrap();
-    let sleeper = Command::new(program).args([AS_PORT, "sleeper"]).stdin(Stdio::null()).spawn().unwrap();
-    std::fs::write(&rest[0], sleeper.id().to_string()).unwrap();
+    std::fs::write(&rest[0], leave_behind().to_string()).unwrap();
     print(&(welcome("orphan") + "\n"));
     exit(3);
+}
+
+/// Starts a process that holds the output of this one; its number.
+fn leave_behind() -> u32 {
+    let program = std::env::current_exe().unwrap();
+    Command::new(program).args([AS_PORT, "sleeper"]).stdin(Stdio::null()).spawn().unwrap().id()
 }
 
 /// Breaks the protocol.
@@ -144,6 +152,14 @@ fn misbehave(fault: &str, run: &Run) {
         "cuts" => {
             print(&right[..right.len() / 2]);
             exit(0);
+        }
+        "float-number" => print("{\"seq\":7.0,\"result\":\"0x1p-1\"}\n"),
+        "no-parts" => print("{\"seq\":7}\n"),
+        "wrong-type" => print("{\"seq\":7,\"error\":3}\n"),
+        "no-object" => print("[7,\"0x1p-1\"]\n"),
+        "leaves" => {
+            leave_behind();
+            exit(3);
         }
         "no-number" => print("{\"result\":\"0x1p-1\"}\n"),
         "both" => print("{\"seq\":7,\"result\":\"0x1p-1\",\"error\":\"domain\"}\n"),

@@ -1,4 +1,4 @@
-//! The verdict in all its forms: claims, known failures, what is skipped, and what is refused as vectors.
+//! The verdict in all its forms: claims, known failures and what is skipped.
 
 use crate::Test;
 use crate::common::{assert_twins, read};
@@ -16,7 +16,6 @@ pub(crate) const TESTS: &[Test] = &[
     ("known_failures_cannot_go_stale", known_failures_cannot_go_stale),
     ("junit_has_every_test", junit_has_every_test),
     ("csv_and_json_have_the_same_rows", csv_and_json_have_the_same_rows),
-    ("vectors_that_make_no_sense_are_refused", vectors_that_make_no_sense_are_refused),
 ];
 
 fn a_right_port_passes() {
@@ -167,32 +166,4 @@ fn csv_and_json_have_the_same_rows() {
     }
     assert_twins(rows[0], 1);
     assert_eq!((&rows[0]["failed"], &rows[0]["cause"]), (&17.into(), &"nats".into()));
-}
-
-fn vectors_that_make_no_sense_are_refused() {
-    let test = |id: &str, want: &str, more: &str| {
-        format!("{{\"id\":\"{id}\",\"format\":\"f64\",\"args\":{{\"p\":\"0x1p-1\"}},\"want\":{want}{more}}}")
-    };
-    let enclosure = "{\"lo\":\"0\",\"hi\":\"0\"}";
-    for (tests, what) in [
-        (test("a", "{\"lo\":\"1\",\"hi\":\"0.5\"}", ""), "a: an enclosure that holds nothing"),
-        (test("a", "{\"lo\":\"0\",\"hi\":\"1e999999\"}", ""), "is not a file of vectors"),
-        (test("a", "{\"low\":\"0\"}", ""), "is not a file of vectors"),
-        (test("a", enclosure, ",\"flags\":[\"Edge\"]"), "the flag Edge"),
-        (test("a", enclosure, ",\"traps\":{\"nats\":\"0x1p-1\"}"), "the trap nats"),
-        ([test("a", enclosure, ""), test("a", enclosure, "")].join(","), "a is there twice"),
-        (
-            test("a", enclosure, "").replace("f64", "f16"),
-            "a: arguments that are no floats of its format, f16",
-        ),
-        (test("a", enclosure, "").replace("0x1p-1", "0.5"), "a: arguments that are no floats"),
-        ("3".to_owned(), "is not a file of vectors"),
-    ] {
-        let vectors = Vectors::new();
-        let file =
-            format!("{{\"op\":\"cell.entropy\",\"tolerance_ulp\":0.5,\"flags\":{{}},\"tests\":[{tests}]}}");
-        fs::write(vectors.folder.path("cell.entropy.json"), file).unwrap();
-        let line = vectors.refusal("none", &[]);
-        assert!(line.contains(what), "{line}");
-    }
 }

@@ -1,4 +1,5 @@
-//! The file of known failures, which cannot go stale: an entry whose test does not fail is a failure itself.
+//! The file of known failures, which cannot go stale: an entry whose test passes or is skipped is a failure itself. A test
+//! that was not run after too much trouble has failed, whether it is in the file or not: nobody saw it fail.
 
 use crate::failure::Failure;
 use crate::maps::Problem;
@@ -22,6 +23,8 @@ impl KnownFailures {
     }
 
     fn parse(text: &str) -> Self {
+        // Some editors begin a file with a byte order mark.
+        let text = text.trim_start_matches('\u{feff}');
         let ids = text.lines().map(|line| line.split('#').next().unwrap_or_default().trim());
         Self(ids.filter(|id| !id.is_empty()).map(str::to_owned).collect())
     }
@@ -45,5 +48,6 @@ mod tests {
     fn lines_and_comments() {
         let known = KnownFailures::parse("# all of these\n\n a/f64/0x1p-2  # slow\r\nb,c\na/f64/0x1p-2\n");
         assert_eq!(known.ids().collect::<Vec<_>>(), ["a/f64/0x1p-2", "b,c"]);
+        assert_eq!(KnownFailures::parse("\u{feff}b,c\n").ids().collect::<Vec<_>>(), ["b,c"]);
     }
 }

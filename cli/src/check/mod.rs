@@ -227,7 +227,10 @@ fn check(
                 Wrong::Answer(judged)
             }
             Outcome::Failed(incident) => Wrong::Trouble(incident),
-            Outcome::NotRun => Wrong::NotRun("not run after too much trouble".to_owned()),
+            // Whether it is a known failure has not been seen.
+            Outcome::NotRun => {
+                return Verdict::Failed(Wrong::NotRun("not run after too much trouble".to_owned()));
+            }
         };
         if known.contains(&test.id) { Verdict::Known(wrong) } else { Verdict::Failed(wrong) }
     };

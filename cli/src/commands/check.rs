@@ -5,9 +5,10 @@ use crate::check::{Check, KnownFailures, Options, Registry, Vectors};
 use crate::failure::Failure;
 use crate::output::{self, Files, Report, write_text};
 use clap::{Args, ValueEnum};
-use std::ffi::OsString;
-use std::path::PathBuf;
+use std::ffi::{OsStr, OsString};
+use std::path::{Path, PathBuf};
 use std::time::Duration;
+use std::{env, fs};
 
 /// The arguments of `meaninfo check`.
 #[derive(Args, Debug)]
@@ -74,6 +75,12 @@ impl Arguments {
         }
         let known = self.known_failures.as_deref().map(KnownFailures::read).transpose()?;
         files.read(self.known_failures.clone());
+        files.read(self.vectors.iter().flat_map(|folder| files_in(folder)));
+        files.read(self.command.iter().map(PathBuf::from));
+        files.read(self.command.first().and_then(|program| found_on_path(program)));
+        if let Some(output) = &self.output {
+            files.may_write(output)?;
+        }
         let vectors = match &self.vectors {
             Some(folder) => Vectors::in_folder(folder)?,
             None => Vectors::built_in()?,
@@ -89,6 +96,19 @@ impl Arguments {
         write_text(&text, self.output.as_deref(), files)?;
         Ok(if check.holds() { Status::Done } else { Status::CheckFailed })
     }
+}
+
+/// The files of a folder, as far as it can be read.
+fn files_in(folder: &Path) -> impl Iterator<Item = PathBuf> {
+    fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path())
+}
+
+/// The file that the system runs by this name.
+fn found_on_path(program: &OsStr) -> Option<PathBuf> {
+    let folders = env::var_os("PATH")?;
+    let found = env::split_paths(&folders).map(|folder| folder.join(program)).find(|path| path.is_file());
+    // A name with a folder in it is no name to look for.
+    found.filter(|_| Path::new(program).components().count() == 1)
 }
 
 /// A time limit.

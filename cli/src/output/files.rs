@@ -66,17 +66,30 @@ impl Files {
         })
     }
 
+    /// Refuses this file before the work that is to be written to it is done.
+    ///
+    /// # Errors
+    /// Those of [`Files::write`] that do not depend on what is written; standard output by a name is none.
+    pub fn may_write(&self, path: &Path) -> Result<(), Failure> {
+        if standard_output::is(path) { Ok(()) } else { self.target(path).map(drop) }
+    }
+
+    /// The place that `path` means, which is none that was read.
+    fn target(&self, path: &Path) -> Result<PathBuf, Failure> {
+        let target = target(path)?;
+        if self.inputs.iter().filter_map(|input| fs::canonicalize(input).ok()).any(|input| input == target) {
+            return Err(
+                Problem::new(path, "is an input of this command; give another name to write to").into()
+            );
+        }
+        Ok(target)
+    }
+
     fn write_all(&self) -> Result<(), Failure> {
-        let inputs: Vec<_> = self.inputs.iter().filter_map(|path| fs::canonicalize(path).ok()).collect();
         let mut staged: Vec<(PathBuf, TempPath)> = Vec::new();
         for (path, contents) in &self.outputs {
             let problem = |message: String| Problem::new(path, message);
-            let target = target(path)?;
-            if inputs.contains(&target) {
-                return Err(
-                    problem("is an input of this command; give another name to write to".into()).into()
-                );
-            }
+            let target = self.target(path)?;
             if staged.iter().any(|(other, _)| *other == target) {
                 return Err(problem("is to be written twice; give two different names".into()).into());
             }

@@ -1,7 +1,7 @@
 //! The verdict in all its forms: claims, known failures and what is skipped.
 
 use crate::Test;
-use crate::common::{assert_twins, read};
+use crate::common::{Folder, assert_twins, meaninfo, read, text};
 use crate::fixture::Vectors;
 use serde_json::Value;
 use std::fs;
@@ -14,6 +14,8 @@ pub(crate) const TESTS: &[Test] = &[
     ("operations_are_chosen", operations_are_chosen),
     ("known_failures_do_not_count", known_failures_do_not_count),
     ("known_failures_cannot_go_stale", known_failures_cannot_go_stale),
+    ("what_is_not_run_is_no_known_failure", what_is_not_run_is_no_known_failure),
+    ("nothing_that_is_read_is_overwritten", nothing_that_is_read_is_overwritten),
     ("junit_has_every_test", junit_has_every_test),
     ("csv_and_json_have_the_same_rows", csv_and_json_have_the_same_rows),
 ];
@@ -99,6 +101,47 @@ fn known_failures_cannot_go_stale() {
     let table =
         vectors.table("none", &[&options[..], &["--ops", "map.*"]].concat(), "4 passed, 1 failed, 0 skipped");
     assert!(table.contains("no-such-test: no such test"), "{table}");
+}
+
+/// What was not run has failed, known or not, and its entry is not stale.
+fn what_is_not_run_is_no_known_failure() {
+    let vectors = Vectors::new();
+    let known = vectors.folder.text_path("known.txt");
+    let ids: Vec<_> = (1..=40).map(|number| format!("test-{number}\n")).collect();
+    fs::write(&known, format!("\u{feff}{}", ids.concat())).unwrap();
+    let options = ["--known-failures", &known, "--ops", "cell.*"];
+    let table = vectors.table("exits-always", &options, "0 passed, 20 failed, 20 skipped");
+    assert!(table.contains("20 known failures, counted as skipped"), "{table}");
+    assert!(!table.contains("not a known failure"), "{table}");
+}
+
+/// Neither the port nor what is read of it, before anything is run.
+fn nothing_that_is_read_is_overwritten() {
+    let vectors = Vectors::new();
+    let known = vectors.folder.text_path("known.txt");
+    fs::write(&known, "").unwrap();
+    let vector = vectors.folder.text_path("map.observed.json");
+    let program = vectors.folder.text_path("program");
+    fs::copy(std::env::current_exe().unwrap(), &program).unwrap();
+    let script = vectors.folder.text_path("script.py");
+    fs::write(&script, "print()").unwrap();
+    let elsewhere = Folder::new();
+    for (name, path) in [("program", elsewhere.path("")), ("./program", vectors.folder.path(""))] {
+        for output in [&known, &vector, &program, &script] {
+            let mut command = meaninfo();
+            command.current_dir(path.canonicalize().unwrap()).env("PATH", vectors.folder.path(""));
+            command.args(["check", "--known-failures", &known, "--vectors"]).arg(vectors.folder.path(""));
+            command.args(["--output", output, "--", name, "as-port", "dies", &script]);
+            let refusal = command.output().unwrap();
+            let line = text(&refusal.stderr);
+            assert!(line.contains(output) && line.contains("is an input of this command"), "{name}: {line}");
+            assert_eq!(refusal.status.code(), Some(2));
+        }
+    }
+    #[cfg(unix)]
+    assert!(
+        vectors.check("none", &["--output", "/dev/stdout"]).1.ends_with("44 passed, 0 failed, 0 skipped\n")
+    );
 }
 
 fn junit_has_every_test() {

@@ -1,5 +1,5 @@
-//! The vectors: for every operation of [`operations`](crate::operations) arguments and exact results, from other tools than this
-//! crate. Their form is told in `vectors/README.md`.
+//! The vectors: for every operation of [`operations`](crate::operations) arguments and exact results, from other tools
+//! than this crate. Their form is told in `vectors/README.md`.
 
 macro_rules! files {
     ($($operation:literal),* $(,)?) => {

@@ -36,8 +36,8 @@ pub struct Operation {
     pub equation: &'static str,
     /// The function of this crate that computes it.
     pub function: &'static str,
-    /// How far an answer may be from the exact result, in spacings of the format's floats at the answer; 0.5 is the float
-    /// nearest to it, ties to even. A test of a grid allows more, see `vectors/README.md`.
+    /// How far an answer may be from the exact result, in spacings of the format's floats at the answer; 0.5 is the
+    /// float nearest to it, ties to even. A test of a grid allows more, see `vectors/README.md`.
     pub tolerance_ulp: f64,
     which: run::Which,
 }

@@ -46,11 +46,12 @@ impl Operation {
     /// The result for these arguments, in the format `T`.
     ///
     /// **Error**: at most [`Operation::tolerance_ulp`], or what the function promises, which is less
-    /// ([`guarantees`](crate::book::guarantees)); of a grid, what `vectors/README.md` allows (measured, on the vectors).
+    /// ([`guarantees`](crate::book::guarantees)); of a grid, what `vectors/README.md` allows (measured, on the
+    /// vectors).
     ///
     /// # Errors
-    /// [`Refusal::Domain`] outside the domain; [`Refusal::TooLarge`] for grids of more than `2^26` samples or beyond what
-    /// the format holds; [`Refusal::Arguments`] if number or shapes of the arguments are not those of the operation.
+    /// [`Refusal::Domain`] outside the domain; [`Refusal::TooLarge`] for grids of more than `2^26` samples or beyond
+    /// what the format holds; [`Refusal::Arguments`] if number or shapes of the arguments are not those of the operation.
     ///
     /// ```
     /// use mean_information::operations::{Answer, Refusal, Value, find};

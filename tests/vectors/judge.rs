@@ -43,7 +43,8 @@ fn ends(want: &Json) -> Option<(Exact, Exact)> {
     Some((lo, hi))
 }
 
-/// Whether the answer is the one wanted, or one of those that are as right; 500 thousandths of an ulp ask for the nearest float.
+/// Whether the answer is the one wanted, or one of those that are as right; 500 thousandths of an ulp ask for the
+/// nearest float.
 pub(crate) fn is_right<T: Real>(answer: &Result<Answer<T>, Refusal>, test: &Json, milliulps: u64) -> bool {
     let also = test["also"].as_array().into_iter().flatten();
     std::iter::once(&test["want"]).chain(also).any(|want| match answer {

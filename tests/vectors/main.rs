@@ -11,10 +11,12 @@ use serde_json::Value as Json;
 use std::collections::HashSet;
 use std::fs;
 
-/// Thousandths of an ulp by which this crate may be off where the vectors let a port be further off: `docs/guarantees.md`.
+/// Thousandths of an ulp by which this crate may be off where the vectors let a port be further off:
+/// `docs/guarantees.md`.
 const PROMISED: [(&str, u64); 2] = [
     ("limit::closed_form", 501),
-    // Each cell is off by half an ulp, relative to it `2^-53`; so is the sum, which is at most an ulp. Then it is rounded.
+    // Each cell is off by half an ulp, relative to it `2^-53`; so is the sum, which is at most an ulp. Then it is
+    // rounded.
     ("Tally::", 1500),
 ];
 

@@ -12,11 +12,11 @@ from pathlib import Path
 import mpmath
 import numpy as np
 
-from exact import DEFINE, FORMATS, enclosure, hardness, rounded
+from exact import DEFINE, FORMATS, enclosure, hardness, rounded, rounds_twice
 import traps
 from enclosures import want_nearest
 from operations import write
-from text import DIGITS, decimal, hex_float, neighbours
+from text import DIGITS, KINDS, decimal, hex_float, neighbours
 from trap_notes import NOTES
 
 HERE = Path(__file__).parent
@@ -33,6 +33,7 @@ FLAGS = {
     "Certain": "p = 0 or 1: 0 log 0 is 0.",
     "Subnormal": "The argument or the result is below the normal floats: not flushed to zero, rounded once.",
     "LargeLogOdds": "|l| above 30: p is 0 or 1 up to its last bits. What passes through a rounded p, or 1 - p, saturates.",
+    "RoundedTwice": "f32, and the float nearest to the f64 answer is another: do not round twice. All there are.",
     "Overflow": "e^|l| overflows: use e^-|l|.",
     "Infinite": "l infinite: p is 0 or 1, as for all large l.",
     "Negative": "Negative log-odds: p below 1/2, and its digits are those of e^l.",
@@ -80,7 +81,7 @@ def edges(of_odds, format):
         around += [0.1, 0.9, 0.3, 0.7, 0.11002786443835955]
         found = ends + [y for x in around for y in neighbours(x, format)]
         return [x for x in found if 0 < x < 1]
-    largest = float(np.finfo({"f64": np.float64, "f32": np.float32}[format]).max)
+    largest = float(np.finfo(KINDS[format]).max)
     around = [2.0**k for k in range(-30, 12)]
     # Multiples of ln 2, where e^-l takes a new exponent; 8 of them end one formula. Where results become subnormal, and 0.
     around += [k * math.log(2) for k in (1, 2, 7, 8, 9, 24, 25, 53, 54, 55, 126, 149, 150, 1022, 1074, 1075)]
@@ -94,7 +95,7 @@ def edges(of_odds, format):
 def random_arguments(of_odds, format, rng):
     """A half as maps hold them, a half of all magnitudes."""
     n = RANDOM[format] // 2
-    kind = {"f64": np.float64, "f32": np.float32}[format]
+    kind = KINDS[format]
     precision, lowest = FORMATS[format]
     if of_odds:
         drawn = np.concatenate([rng.normal(0, 4, n), rng.choice([-1, 1], n) * np.exp2(rng.uniform(lowest, 10.5, n))])
@@ -117,8 +118,9 @@ def near_ties(function, format):
         x = float(np.array(int(bits, 16), np.uint32).view(np.float32))
         if name.split()[0] == function:
             found.append(-x if name.endswith("minus") else x)
-    found.sort(key=lambda x: -hardness(enclosure(function, x)[0], format))
-    return found[:60]
+    exact = {x: enclosure(function, x)[0] for x in found}
+    found.sort(key=lambda x: -hardness(exact[x], format))
+    return found[:60] + [x for x in found[60:] if rounds_twice(exact[x], format)]
 
 
 def more_flags(of_odds, x, answer, format):
@@ -136,6 +138,8 @@ def more_flags(of_odds, x, answer, format):
         yield "Certain"
     if 0 < size < normal or 0 < Fraction(answer["hi"]) < normal:
         yield "Subnormal"
+    if rounds_twice(Fraction(answer["lo"]), format):
+        yield "RoundedTwice"
     if of_odds:
         if math.isinf(x):
             yield "Infinite"

@@ -5,8 +5,8 @@ import math
 import numpy as np
 
 from exact import FORMATS
+from text import KINDS
 
-KINDS = {"f64": np.float64, "f32": np.float32}
 BAD = (math.nan, math.inf, -math.inf, -0.25, 1.25)
 
 

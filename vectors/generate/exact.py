@@ -105,6 +105,11 @@ def rounded(value, format):
     return float(round(value * Fraction(2) ** -e) * Fraction(2) ** e)
 
 
+def rounds_twice(value, format):
+    """Whether rounding to f64 first, and then to f32, gives another float than rounding once."""
+    return format == "f32" and rounded(Fraction(rounded(value, "f64")), format) != rounded(value, format)
+
+
 def hardness(value, format):
     """How many bits after the rounding bit are all 0 or all 1: -log2 of the distance to the nearest half ulp."""
     halves = value * Fraction(2) ** (1 - exponent_of_ulp(value, format))

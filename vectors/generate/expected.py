@@ -14,9 +14,9 @@ from flint import arb, ctx
 import cells as draw
 import traps
 from enclosures import ball, total, want
-from exact import FORMATS
+from exact import FORMATS, rounded
 from operations import write
-from text import hex_float, label, neighbours
+from text import KINDS, hex_float, label, neighbours
 from trap_notes import NOTES
 
 OP = "expected.mean_information"
@@ -61,7 +61,7 @@ def mean_of(cells):
 
 def blurred(weights, particles, format, normalise):
     """The mean by sums of floats; None if no float differs from the exact one by being observed."""
-    kind = draw.KINDS[format]
+    kind = KINDS[format]
     with np.errstate(all="ignore"):
         w = [kind(x) for x in weights]
         weight = kind(0)
@@ -126,6 +126,7 @@ def known_mistakes(weights, particles, format):
             found["Fused"] = mean_of([traps.logistic(sum(c, arb(0))) for c in odds])
         for name, normalise in (("BlurredUnknown", True), ("BlurredQuotient", False)):
             found[name] = blurred(weights, particles, format, normalise)
+        found["RoundedMean"] = mean_of([arb(rounded(p, format)) for p in exact])
         if len(maps) == len(exact) > 1:
             found["Transposed"] = mean_of([sum((a * p for a, p in zip(w, m)), arb(0)) / weight for m in maps])
     if not seen:
@@ -154,13 +155,13 @@ def filtered(count, cells, format, rng):
 def weighted(count, format, rng):
     """Normalised in floats, as filters do."""
     w = rng.random(count)
-    return [float(x) for x in (w / w.sum()).astype(draw.KINDS[format])]
+    return [float(x) for x in (w / w.sum()).astype(KINDS[format])]
 
 
 def cases(format, rng):
     """(kind, weights, particles, flag)."""
     precision, lowest = FORMATS[format]
-    kind = draw.KINDS[format]
+    kind = KINDS[format]
     smallest, largest, eps = 2.0**lowest, float(np.finfo(kind).max), 2.0**-precision
     third, fifth, tenth = (float(kind(x)) for x in (1 / 3, 0.2, 0.1))
     above = neighbours(0.5, format)[2]

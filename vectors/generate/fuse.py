@@ -15,9 +15,9 @@ from flint import arb, ctx, fmpz
 import cells as draw
 import traps
 from enclosures import ball, bounds, number, want_exact, want_nearest, within
-from exact import FORMATS, hardness
+from exact import FORMATS, hardness, rounds_twice
 from operations import write
-from text import hex_float, label, neighbours
+from text import KINDS, hex_float, label, neighbours
 from trap_notes import NOTES
 
 OP = "fuse.log_odds"
@@ -38,6 +38,7 @@ FLAGS = {
     "Subnormal": "Subnormal observations or results.",
     "Tie": "The exact value is the midpoint of two floats: ties go to even. Sums of rounded log-odds cannot tell.",
     "NearTie": "Within 2^-16 ulp, in f64 within 2^-40, of the midpoint of two floats.",
+    "RoundedTwice": "f32, and the float nearest to the f64 answer is another: do not round twice.",
     "ManyObservations": "100 observations or more: the errors of rounded log-odds add up.",
     "Order": "The observations of another test in another order: the same bits.",
     "Domain": "An observation is NaN or outside [0, 1]: the answer is the error `domain`.",
@@ -111,7 +112,7 @@ def near_ties(format, count, rng):
         rest = Fraction(2 * (k % 40) + 1, 2 ** (precision + 1))
         x = (1 - rest) / rest / odds
         p = x / (1 + x)
-        last = float(np.asarray(float(p)).astype(draw.KINDS[format]))
+        last = float(np.asarray(float(p)).astype(KINDS[format]))
         if 0 < last < 1 and 16 < hardness(fused(cells + [last]), format) < math.inf:
             yield cells + [last]
 
@@ -142,7 +143,7 @@ def lists(format, rng):
     for _ in range(8):
         x = draw.in_format(rng.uniform(0.55, 0.95, 5), format)
         # 1 - p is exact above 1/2.
-        opposite = [float(np.asarray(1 - p).astype(draw.KINDS[format])) for p in x]
+        opposite = [float(np.asarray(1 - p).astype(KINDS[format])) for p in x]
         yield "cancelling", x + opposite, "Cancelling"
         yield "cancelling", x + neighbours(opposite[0], format)[1:2] + opposite[1:], "Cancelling"
         yield "near-half", draw.near_half(int(rng.integers(2, 9)), format, rng), "NearHalf"
@@ -189,6 +190,12 @@ def lists(format, rng):
     for k in (100, 1000):
         yield "many", draw.short(k, rng), "Mapped"
         yield "many", [0.5 + 2.0**-7 * j for j in rng.integers(-9, 10, k).tolist()], "Mapped"
+    # 1/2 + an odd number of half ulps, up to a product of three small numbers: f64 rounds to the midpoint itself.
+    for a in range(1, 8):
+        for b in range(1, 2 * a, 4):
+            x = [0.5 + a * eps, 0.5 - b * eps / 2]
+            if rounds_twice(fused(x), format):
+                yield "rounded-twice", x, "RoundedTwice"
     for bad in draw.BAD:
         yield "domain", [bad], "Domain"
         yield "domain", [0.25, 0.5, bad, 0.875], "Domain"
@@ -209,7 +216,8 @@ def known_mistakes(cells, answer, format):
         return {"ContradictionAccepted": Fraction(1, 2), "MeanOccupancy": sum(x) / len(x), "Last": x[-1], "First": x[0],
                 "Maximum": Fraction(1), "Product": Fraction(0)}
     p = fused(cells)
-    found = {"MeanOccupancy": sum(x) / len(x), "Maximum": max(x), "Last": x[-1], "First": x[0], "Complement": 1 - p}
+    found = {"MeanOccupancy": sum(x) / len(x), "Maximum": max(x), "Last": x[-1], "First": x[0], "Complement": 1 - p,
+             "EqualOnce": fused(set(cells))}
     with ctx.workprec(2400):
         balls = [ball(q) for q in x]
         found["Product"], found["NoisyOr"] = arb(1), arb(1)
@@ -240,7 +248,7 @@ def known_mistakes(cells, answer, format):
                 odds = [traps.log_odds(store(q)) for q in balls]
                 if all(isinstance(q, arb) for q in odds):
                     found[name] = traps.logistic(sum(odds, arb(0)))
-    kind = draw.KINDS[format]
+    kind = KINDS[format]
     occupied = free = kind(1)
     with np.errstate(under="ignore"):
         for q in cells:
@@ -267,6 +275,8 @@ def more_flags(cells, answer, format):
         yield "Saturated"
     if 0 < abs(p - Fraction(1, 2)) < Fraction(1, 2**12):
         yield "NearHalf"
+    if rounds_twice(Fraction(answer["lo"]), format):
+        yield "RoundedTwice"
     if len(cells) >= 100:
         yield "ManyObservations"
 

@@ -22,10 +22,9 @@ from enclosures import bounds, want, within  # noqa: E402
 from exact import FORMATS, exponent_of_ulp  # noqa: E402
 from operations import write  # noqa: E402
 from room import BITS, Room, cartesian, defined, polar, root  # noqa: E402
-from text import hex_float, neighbours  # noqa: E402
+from text import KINDS, hex_float, neighbours  # noqa: E402
 from trap_notes import NOTES  # noqa: E402
 
-KINDS = {"f64": np.float64, "f32": np.float32}
 SOURCE = "vectors/generate/grid.py: cells in exact integers, enclosures by Arb (python-flint); mpmath's loop over the definition agrees."
 FLAGS = {
     "Listed": "A room as in the report.",

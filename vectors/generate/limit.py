@@ -19,8 +19,9 @@ from limit_exact import at  # noqa: E402
 from limit_tables import HIGHEST, panels  # noqa: E402
 import limit_traps  # noqa: E402
 import traps  # noqa: E402
+from exact import fraction_of  # noqa: E402
 from operations import write  # noqa: E402
-from text import DIGITS, decimal, hex_float, neighbours  # noqa: E402
+from text import DIGITS, KINDS, decimal, hex_float, neighbours  # noqa: E402
 from trap_notes import NOTES  # noqa: E402
 
 OPS = ("limit.radial", "limit.area")
@@ -37,14 +38,7 @@ FLAGS = {
     "NarrowPeak": "range / sigma above 500: a quadrature that is not told of z misses the peak and claims to be right.",
     "DoubleDigits": "f64, range / sigma from 1/8 to 500: a quadrature to 1e-10, or one across the kink of H at z, has too few digits here.",
 }
-KINDS = {"f64": np.float64, "f32": np.float32}
 COUNTS = {"f64": 200, "f32": 60}
-
-
-def fraction(x):
-    """An exact arb."""
-    m, e = map(int, x.man_exp())
-    return m * Fraction(2) ** e
 
 
 def defined(a):
@@ -69,7 +63,7 @@ def wants(z, s):
     a = Fraction(z) / Fraction(s)
     found = []
     for ball, value in zip(at(arb(a.numerator) / a.denominator), defined(a)):
-        lo, hi = fraction(ball.lower()), min(fraction(ball.upper()), Fraction(1))
+        lo, hi = fraction_of(ball.lower()), min(fraction_of(ball.upper()), Fraction(1))
         value = Fraction(int(mpmath.nint(mpmath.ldexp(value, 200))), 2**200)
         assert hi - lo < Fraction(1, 2**200) and abs(value - lo) < Fraction(1, 10**45), (z, s)
         found.append({"lo": decimal(lo, DIGITS, False), "hi": decimal(hi, DIGITS, True)})

@@ -2,7 +2,7 @@
 
 from flint import arb
 
-from limit_exact import at, constants, edge, large, ln2
+from limit_exact import at, constants, edge, large, ln2, small
 
 
 def gini(a, b):
@@ -31,7 +31,7 @@ def known_mistakes(a):
 
     def until(edge):
         """Eq. 5's Gaussian up to this edge."""
-        first, second = large(edge)
+        first, second = small(edge) if edge < 1 else large(edge)
         return means(before + first, before_area + a * first + edge * first - second, a + edge)
 
     pairs = {
@@ -43,6 +43,7 @@ def known_mistakes(a):
         "IntegratedToRange": means(before, before_area, a),
         "IntegratedTwice": means(2 * before, 2 * before_area, width),
         "EdgeAtOneSigma": until(arb(1)),
+        "EdgeWithoutTwo": until(ln2().sqrt()),
         "EdgeAtThreeSigma": until(arb(3)),
         "SymmetricEdges": (1 - near / b,) * 2 if a > b else (None, None),
         "MissedPeak": (arb(1), arb(1)),

@@ -27,6 +27,7 @@ SENSORS = {
     "NormalisedDensity": (lambda t, s: min(1.0, gaussian(t) / (s * math.sqrt(2 * math.pi))) if t <= EDGE else 0.5, EDGE),
     "UnknownFromRange": (lambda t, s: sensor(t, 0), EDGE),
     "EdgeAtOneSigma": (lambda t, s: sensor(t, 1), EDGE),
+    "EdgeWithoutTwo": (lambda t, s: sensor(t, math.sqrt(LN2)), EDGE),
     "EdgeAtThreeSigma": (lambda t, s: sensor(t, 3), 3),
     "FreeSpaceUnknown": (lambda t, s: max(sensor(t), 0.5), EDGE),
     "FullWidth": (lambda t, s: math.exp(-4 * LN2 * t * t) if t <= EDGE else 0.5, EDGE),
@@ -127,6 +128,8 @@ def known_mistakes(kind, z, s, h, x, y, limits):
     found["RadialForArea"] = limits[0]
     found["OffsetIgnored"] = mean(occupancies(squares(h, reach, 0, 0)))
     found["OffsetHalf"] = mean(occupancies(squares(h, reach, 0.5, 0.5)))
+    found["OffsetXForBoth"] = mean(occupancies(squares(h, reach, x, x))) if x % 1 != y % 1 else None
+    found["OffsetYForBoth"] = mean(occupancies(squares(h, reach, y, y))) if x % 1 != y % 1 else None
     found["OffsetInMetres"] = mean(occupancies(squares(h, reach, x / h, y / h)))
     found["OneQuadrant"] = mean(occupancies(quadrant(h, reach, x, y)))
     found["Manhattan"] = mean(occupancies(squares(h, reach, x, y, lambda a, b: abs(a) + abs(b))))

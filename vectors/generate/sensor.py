@@ -17,7 +17,7 @@ import traps
 from enclosures import ball, bounds, number, want_nearest, within
 from exact import FORMATS
 from operations import write
-from text import hex_float, neighbours
+from text import KINDS, hex_float, neighbours
 from trap_notes import NOTES
 
 OP = "sensor.occupancy"
@@ -29,6 +29,7 @@ FLAGS = {
     "NearRange": "rho next to z, p next to 1: 1 - p lies in the last bits, and (rho - z) / sigma must not be rounded twice.",
     "NearTie": "Within 2^-20 ulp, mostly far closer, of the midpoint of two floats: rho - z over sigma was solved for it. "
     "If only these fail, the result is within an ulp but not correctly rounded.",
+    "RoundedTwice": "f32, and the float nearest to the f64 answer is another than that nearest to p: do not round twice.",
     "Subnormal": "p below the normal floats: flushed to zero, or rounded twice.",
     "Vanishing": "p below all floats: the answer is 0.",
     "LargeQuotient": "|rho - z| / sigma above 6: the exponent is large, and an error of its last bit is many ulp of p.",
@@ -38,7 +39,6 @@ FLAGS = {
     "Unknown": "Beyond the edge: exactly 1/2.",
     "Domain": "rho NaN, or range or sigma not positive and finite: the answer is the error `domain`, or NaN.",
 }
-KINDS = {"f64": np.float64, "f32": np.float32}
 COUNTS = {"f64": 250, "f32": 120}
 
 
@@ -102,6 +102,7 @@ def known_mistakes(rho, z, sigma, format):
             "NoEdge": p,
             "UnknownFromRange": cut(p, arb(0)),
             "EdgeAtOneSigma": cut(p, arb(1)),
+            "EdgeWithoutTwo": cut(p, traps.ln2().sqrt()),
             "EdgeAtThreeSigma": cut(p, arb(3)),
             "Complement": 1 - cut(p),
             "FreeSpaceUnknown": half if p < half else cut(p),
@@ -229,6 +230,8 @@ def more_flags(rho, z, sigma, answer, format):
         yield "Subnormal"
     elif abs(Fraction(rho) - Fraction(z)) > 6 * Fraction(sigma) and hi < Fraction(1, 2):
         yield "LargeQuotient"
+    if exact.rounds_twice(Fraction(answer["lo"]), format):
+        yield "RoundedTwice"
     if rho < 0:
         yield "BehindSensor"
     if answer["lo"] == answer["hi"] == "5.0e-1":

@@ -11,6 +11,8 @@ import numpy as np
 
 FOLDER = Path(__file__).parent.parent / "v1"
 DIGITS = 40
+# The floats of a format, in NumPy.
+KINDS = {"f64": np.float64, "f32": np.float32}
 
 
 def hex_float(x):
@@ -38,7 +40,7 @@ def decimal(value, digits, up):
 
 def neighbours(x, format, n=1):
     """x and the n floats on either side."""
-    kind = {"f64": np.float64, "f32": np.float32}[format]
+    kind = KINDS[format]
     x = kind(x)
     found = [x]
     for direction in (-np.inf, np.inf):

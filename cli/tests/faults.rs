@@ -1,7 +1,7 @@
 //! The check, checked: mistakes are planted in the Python port, one at a time, and `meaninfo check` must name each.
 //!
-//! `faults/python.txt` lists mistakes of all kinds, `faults/mrpt.txt` the rules of MRPT. A mistake is named if the first
-//! cause of the operation is one of those that the list expects.
+//! `faults/python.txt` lists mistakes of all kinds, `faults/mrpt.txt` the rules of MRPT. A mistake is named if the
+//! first cause of the operation is one of those that the list expects. Every trap of the vectors is expected of some.
 
 mod common;
 
@@ -71,8 +71,8 @@ impl Fault<'_> {
         })
     }
 
-    /// What is wrong with the verdict on the port with this fault. The vectors are in folders by operation: to read them
-    /// all takes longer than to run those of one.
+    /// What is wrong with the verdict on the port with this fault. The vectors are in folders by operation: to read
+    /// them all takes longer than to run those of one.
     fn unnamed(&self, file: &Path, vectors: &Folder) -> Option<String> {
         let (status, verdict) = check(&["--vectors", &vectors.text_path(self.op)], file);
         let operations = verdict["operations"].as_array().unwrap();
@@ -124,7 +124,7 @@ fn the_port_without_faults_passes() {
 #[test]
 fn every_planted_fault_is_named() {
     let faults = faults();
-    assert!(faults.len() > 100);
+    assert!(faults.len() > 150);
     if !has_numpy() {
         return;
     }
@@ -159,16 +159,37 @@ fn every_planted_fault_is_named() {
     );
 }
 
-/// Names of traps and flags are words of two parts or more: `DividedByAll`.
-#[test]
-fn the_chapter_on_ports_uses_names_that_the_check_knows() {
-    let mut known = BTreeSet::new();
+/// The keys of an object in every file of vectors.
+fn names_in_vectors(keys: &[&str]) -> BTreeSet<String> {
+    let mut names = BTreeSet::new();
     for entry in fs::read_dir(VECTORS).unwrap() {
         let vectors: Value =
             serde_json::from_slice(&fs::read(entry.unwrap().path()).unwrap()).unwrap_or_default();
-        let names = ["traps", "flags"].into_iter().filter_map(|key| vectors[key].as_object());
-        known.extend(names.flat_map(|names| names.keys().cloned()));
+        let objects = keys.iter().filter_map(|key| vectors[key].as_object());
+        names.extend(objects.flat_map(|names| names.keys().cloned()));
     }
+    names
+}
+
+/// A trap that is never planted may be one that no answer falls into; a cause that no file knows is a slip of the pen.
+#[test]
+fn every_trap_is_planted() {
+    let expected: BTreeSet<_> =
+        faults().into_iter().flat_map(|fault| fault.causes).map(str::to_owned).collect();
+    let traps = names_in_vectors(&["traps"]);
+    let missing: Vec<_> = traps.difference(&expected).collect();
+    assert!(traps.len() > 100 && missing.is_empty(), "{missing:?} of {} traps", traps.len());
+    let known = names_in_vectors(&["traps", "flags"]);
+    // Facts are written with small letters.
+    let unknown =
+        expected.difference(&known).filter(|name| name.starts_with(|c: char| c.is_ascii_uppercase()));
+    assert_eq!(unknown.collect::<Vec<_>>(), [] as [&String; 0]);
+}
+
+/// Names of traps and flags are words of two parts or more: `DividedByAll`.
+#[test]
+fn the_chapter_on_ports_uses_names_that_the_check_knows() {
+    let known = names_in_vectors(&["traps", "flags"]);
     let chapter = fs::read_to_string(CHAPTER).unwrap();
     let code = chapter.split('`').skip(1).step_by(2);
     let is_name = |word: &&str| {

@@ -1,12 +1,12 @@
 //! What the failures of an operation have in common: causes, the most likely one first.
 //!
-//! A cause explains some failures; it is the likelier the more of them it explains, and the fewer tests there are on which
-//! it should have shown but did not. Its score is, with `P = explained / tests on which it should show` and
+//! A cause explains some failures; it is the likelier the more of them it explains, and the fewer tests there are on
+//! which it should have shown but did not. Its score is, with `P = explained / tests on which it should show` and
 //! `R = explained / failures`,
 //!
-//! * `P (1 + R) / 2` for a trap: where a known mistake's value is answered wherever it is known, the mistake is there, though
-//!   others may be there as well. Not every test has every trap it could have: a trap that as many tests of a format have as
-//!   have any explains the share `P` of that format's other failures, too;
+//! * `P (1 + R) / 2` for a trap: where a known mistake's value is answered wherever it is known, the mistake is there,
+//!   though others may be there as well. Not every test has every trap it could have: a trap that as many tests of a
+//!   format have as have any explains the share `P` of that format's other failures, too;
 //! * `2 P R / (P + R)`, times a weight below 1, for anything else.
 
 use super::facts::facts;

@@ -16,6 +16,8 @@ const PATTERN: f64 = 0.9;
 const LEAST: usize = 3;
 /// Up to this error, in ulp, an answer suffers from rounding, not from a mistake.
 const FEW_ULP: f64 = 64.0;
+/// Half an ulp of `f32`, and half of one of `f64`.
+const TWICE_ULP: f64 = 0.5 + 1.0 / 1_073_741_824.0 + f64::EPSILON;
 /// Of wrong numbers, if they are to be so by rounding.
 const MOST: f64 = 0.9;
 /// Numbers with a relative error below this have digits in common.
@@ -29,8 +31,9 @@ pub(super) fn facts(cases: &[Case<'_>]) -> Vec<Candidate> {
         candidates.push(fact(name, (*note).to_owned(), PLAIN, indices(cases, holds)));
     }
     candidates.extend(words(cases));
-    candidates
-        .extend([constant(cases), factor(cases), complement(cases), few_ulp(cases)].into_iter().flatten());
+    let patterns =
+        [lag(cases), constant(cases), factor(cases), complement(cases), few_ulp(cases), twice(cases)];
+    candidates.extend(patterns.into_iter().flatten());
     candidates.extend(bits(cases));
     candidates.retain(|candidate| !candidate.explained.is_empty());
     candidates
@@ -149,6 +152,44 @@ fn followed(
     // Half of the tests: less is chance.
     let telling = explained.len() >= LEAST && 2 * explained.len() >= tests;
     telling.then(|| Candidate { tests, ..fact(name, note, PATTERN, explained) })
+}
+
+/// The answer to the request before, under the number of this one.
+fn lag(cases: &[Case<'_>]) -> Option<Candidate> {
+    let answers = |judged: &Judged, want: &Want| match (&judged.answer, want) {
+        (Answered::Float(x, _), Want::Enclosure { lo, .. }) => {
+            let exact = lo.value.approximate();
+            (x - exact).abs() <= SAME * exact.abs()
+        }
+        (Answered::Count(count), Want::Count(wanted)) => count == wanted,
+        (Answered::Error(word), Want::Domain) => word == errors::DOMAIN,
+        _ => false,
+    };
+    // Each answer that is not that of its own request: its place, and whether it is that of the request before.
+    let others = cases.windows(2).enumerate().filter_map(|(index, pair)| {
+        let judged = pair[1].judged.filter(|judged| !answers(judged, &pair[1].test.want))?;
+        Some((index + 1, answers(judged, &pair[0].test.want)))
+    });
+    let (tests, explained) = others.fold((0, Vec::new()), |(tests, mut explained), (index, lags)| {
+        explained.extend(lags.then_some(index));
+        (tests + 1, explained)
+    });
+    let note = "answers what the request before asked: answers lag behind by one, under the right numbers"
+        .to_owned();
+    (explained.len() >= LEAST && 2 * explained.len() >= tests)
+        .then(|| Candidate { tests, ..fact("lag", note, PLAIN, explained) })
+}
+
+/// Answers in `f32` beside an exact result that lies next to a midpoint of two floats, where rounding to `f64` puts it.
+fn twice(cases: &[Case<'_>]) -> Option<Candidate> {
+    let wrong = wrong_numbers(cases);
+    let single = |number: &&Number| cases[number.case].test.format == Format::F32;
+    let single: Vec<_> = wrong.iter().filter(single).collect();
+    let explained: Vec<_> = single.iter().filter(|n| n.error.ulp < TWICE_ULP).map(|n| n.case).collect();
+    let note =
+        "answers in f32 miss by hardly more than half an ulp: they are rounded to f64 first, then to f32";
+    (!explained.is_empty() && explained.len() == single.len())
+        .then(|| fact("rounded-twice", note.to_owned(), PLAIN, explained))
 }
 
 /// The same answer to everything.

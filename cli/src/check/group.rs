@@ -1,4 +1,5 @@
-//! A process with all that it starts: it is ended as a whole, whether its first process still runs or has ended by itself.
+//! A process with all that it starts: it is ended as a whole, whether its first process still runs or has ended by
+//! itself.
 
 use std::ffi::OsString;
 use std::io;

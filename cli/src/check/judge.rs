@@ -1,7 +1,8 @@
 //! Whether an answer is right, and how far off it is: decided in integers of any size.
 //!
-//! With a tolerance of 0.5 ulp the answer is the float nearest to some number of the enclosure, ties to even, and a zero is
-//! `+0`. With a larger one it lies within so many ulp, spacings of the format's floats at the answer, of some number of it.
+//! With a tolerance of 0.5 ulp the answer is the float nearest to some number of the enclosure, ties to even, and a
+//! zero is `+0`. With a larger one it lies within so many ulp, spacings of the format's floats at the answer, of some
+//! number of it.
 
 use super::exact::Exact;
 use super::values::{Format, NEAREST, Want};

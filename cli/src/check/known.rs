@@ -1,5 +1,5 @@
-//! The file of known failures, which cannot go stale: an entry whose test passes or is skipped is a failure itself. A test
-//! that was not run after too much trouble has failed, whether it is in the file or not: nobody saw it fail.
+//! The file of known failures, which cannot go stale: an entry whose test passes or is skipped is a failure itself. A
+//! test that was not run after too much trouble has failed, whether it is in the file or not: nobody saw it fail.
 
 use crate::failure::Failure;
 use crate::maps::Problem;

@@ -140,8 +140,8 @@ impl Check {
     /// Runs the port against the vectors.
     ///
     /// # Errors
-    /// A port that cannot be started or talked to; patterns that no operation matches. What goes wrong later is part of the
-    /// verdict.
+    /// A port that cannot be started or talked to; patterns that no operation matches. What goes wrong later is part of
+    /// the verdict.
     pub fn run(options: &Options, all: Vec<Vectors>) -> Result<Self, Failure> {
         if let Some(pattern) =
             options.ops.iter().find(|pattern| all.iter().all(|v| !glob::matches(pattern, &v.op)))

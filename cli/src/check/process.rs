@@ -180,8 +180,8 @@ impl Process {
         if self.group.succeeded() && !left_behind { Ok(()) } else { Err(Trouble::Stopped(end)) }
     }
 
-    /// Its next line, or the end of its output; none if neither comes in time. Once it has ended, what it has left behind
-    /// has only a moment for more.
+    /// Its next line, or the end of its output; none if neither comes in time. Once it has ended, what it has left
+    /// behind has only a moment for more.
     fn next_line(&mut self, limit: Duration) -> Option<Line> {
         let mut deadline = Instant::now() + limit;
         let mut has_ended = false;

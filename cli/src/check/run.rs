@@ -1,5 +1,5 @@
-//! The conversation with a port: requests are sent ahead, troubles are laid to the request that caused them, and the port is
-//! started again.
+//! The conversation with a port: requests are sent ahead, troubles are laid to the request that caused them, and the
+//! port is started again.
 
 use super::process::{Process, Trouble, shown};
 use super::values::MAX_TOLERANCE;

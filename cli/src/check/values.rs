@@ -1,5 +1,5 @@
-//! What a file of vectors may hold in its places. What is read of these types makes sense; anything else is refused with its
-//! value and what is allowed.
+//! What a file of vectors may hold in its places. What is read as one of these types makes sense; anything else is
+//! refused with its value and what is allowed.
 
 use super::exact::Exact;
 use crate::hex_float;

@@ -21,8 +21,8 @@ fn file() -> Value {
         "op": "cell.entropy", "version": 1, "tolerance_ulp": 0.5,
         "flags": {"Edge": "An end."}, "traps": {"Nats": "computes nats"},
         "tests": [{
-            "id": "a", "format": "f64", "args": {"p": "0x1p-2"}, "want": {"lo": "0.81", "hi": "0.82"}, "flags": ["Edge"],
-            "traps": {"Nats": "0x1.1fe6fep-1"},
+            "id": "a", "format": "f64", "args": {"p": "0x1p-2"}, "want": {"lo": "0.81", "hi": "0.82"},
+            "flags": ["Edge"], "traps": {"Nats": "0x1.1fe6fep-1"},
         }],
     })
 }
@@ -139,8 +139,8 @@ fn text_that_is_no_json_is_refused() {
     assert!(refusal(&huge).contains("number out of range at line 1"));
 }
 
-/// What is read and what `vectors/schema.json` describes cannot come to differ: the reader refuses a key that it does not
-/// know, and says which it does.
+/// What is read and what `vectors/schema.json` describes cannot come to differ: the reader refuses a key that it does
+/// not know, and says which it does.
 fn the_keys_are_those_of_the_schema() {
     let schema = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/../vectors/schema.json"));
     let schema: Value = serde_json::from_str(schema).unwrap();

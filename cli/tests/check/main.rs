@@ -1,8 +1,8 @@
 //! `meaninfo port` and `meaninfo check`: the reference passes, faulty ports are named for what they are, and no port,
 //! however it misbehaves, makes the command hang.
 //!
-//! The ports are this program itself, started with the name of a fault (`ports`); hence it has a `main` of its own, which
-//! runs the tests whose names contain one of the arguments, or all.
+//! The ports are this program itself, started with the name of a fault (`ports`); hence it has a `main` of its own,
+//! which runs the tests whose names contain one of the arguments, or all.
 
 #[path = "../common/mod.rs"]
 mod common;

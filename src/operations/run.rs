@@ -51,7 +51,8 @@ impl Operation {
     ///
     /// # Errors
     /// [`Refusal::Domain`] outside the domain; [`Refusal::TooLarge`] for grids of more than `2^26` samples or beyond
-    /// what the format holds; [`Refusal::Arguments`] if number or shapes of the arguments are not those of the operation.
+    /// what the format holds; [`Refusal::Arguments`] if number or shapes of the arguments are not those of the
+    /// operation.
     ///
     /// ```
     /// use mean_information::operations::{Answer, Refusal, Value, find};

@@ -126,7 +126,8 @@ pub const OPERATIONS: &[Operation] = &[
         "grid.polar.mean_information",
         &[float("range"), float("sigma"), float("resolution")],
         "range, sigma, resolution positive and finite",
-        "mean of I(p(rho)) over rho = (k + 1/2) resolution, k = 0, 1, ..., with p != 1/2; p by sensor.occupancy; 0 if there is none",
+        "mean of I(p(rho)) over rho = (k + 1/2) resolution, k = 0, 1, ..., with p != 1/2; p by sensor.occupancy; \
+         0 if there is none",
         "PolarRoom::tally",
     )),
     summed(rounded(
@@ -134,7 +135,8 @@ pub const OPERATIONS: &[Operation] = &[
         "grid.cartesian.mean_information",
         &[float("range"), float("sigma"), float("resolution"), float("offset_x"), float("offset_y")],
         "range, sigma, resolution positive and finite; offsets finite",
-        "mean of I(p(rho)) over rho = resolution sqrt((i + offset_x)^2 + (j + offset_y)^2), i and j integers, with p != 1/2; p by sensor.occupancy; 0 if there is none",
+        "mean of I(p(rho)) over rho = resolution sqrt((i + offset_x)^2 + (j + offset_y)^2), i and j integers, \
+         with p != 1/2; p by sensor.occupancy; 0 if there is none",
         "CartesianRoom::tally",
     )),
     rounded(

@@ -24,12 +24,18 @@ fn the_page_has_the_list() {
             Shape::Rows => format!("{}[][]", argument.name),
         });
         let arguments = arguments.collect::<Vec<_>>().join(", ");
-        let Operation { name, equation, domain, function, tolerance_ulp, .. } = operation;
-        format!("| `{name}` | {arguments} | `{equation}` | {domain} | `{function}` | {tolerance_ulp} |")
+        let Operation { name, function, tolerance_ulp, .. } = operation;
+        format!("| `{name}` | {arguments} | `{function}` | {tolerance_ulp} |")
+    };
+    let item = |Operation { name, equation, domain, .. }: &Operation| {
+        format!("`{name}`: `{equation}`. Allowed: {domain}.")
     };
     let page = include_str!("../../docs/operations.md");
     let rows: Vec<_> = page.lines().filter(|line| line.starts_with("| `")).collect();
     assert_eq!(rows, OPERATIONS.iter().map(row).collect::<Vec<_>>());
+    // Lines are broken anywhere between words.
+    let items = page.split("\n* ").skip(1).map(|item| item.split_whitespace().collect::<Vec<_>>().join(" "));
+    assert_eq!(items.collect::<Vec<_>>(), OPERATIONS.iter().map(item).collect::<Vec<_>>());
 }
 
 #[test]

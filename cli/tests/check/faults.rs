@@ -28,6 +28,7 @@ const FAULTS: &[Named] = &[
     ("infinite", "cell.information", "fact", "infinite", "infinity", 34, 34),
     ("wrong-format", "cell.information", "fact", "not-of-format", "double precision", 17, 17),
     ("numbers", "cell.information", "fact", "unreadable", "hexadecimal float", 34, 34),
+    ("integers", "cell.information", "fact", "unreadable", "hexadecimal float", 34, 34),
     ("text-count", "map.observed", "fact", "unreadable", "integer", 3, 3),
     ("single", "cell.information", "fact", "single-precision", "single precision", 17, 17),
     ("single-inside", "cell.information", "fact", "single-precision", "single precision", 17, 17),

@@ -121,15 +121,16 @@ fn nothing_that_is_read_is_overwritten() {
     let known = vectors.folder.text_path("known.txt");
     fs::write(&known, "").unwrap();
     let vector = vectors.folder.text_path("map.observed.json");
-    let program = vectors.folder.text_path("program");
+    let home = Folder::new();
+    let program = home.text_path("program");
     fs::copy(std::env::current_exe().unwrap(), &program).unwrap();
-    let script = vectors.folder.text_path("script.py");
+    let script = home.text_path("script.py");
     fs::write(&script, "print()").unwrap();
     let elsewhere = Folder::new();
-    for (name, path) in [("program", elsewhere.path("")), ("./program", vectors.folder.path(""))] {
+    for (name, folder) in [("program", &elsewhere), ("./program", &home)] {
         for output in [&known, &vector, &program, &script] {
             let mut command = meaninfo();
-            command.current_dir(path.canonicalize().unwrap()).env("PATH", vectors.folder.path(""));
+            command.current_dir(folder.path("")).env("PATH", home.path(""));
             command.args(["check", "--known-failures", &known, "--vectors"]).arg(vectors.folder.path(""));
             command.args(["--output", output, "--", name, "as-port", "dies", &script]);
             let refusal = command.output().unwrap();

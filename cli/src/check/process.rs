@@ -121,6 +121,15 @@ impl fmt::Display for Trouble {
     }
 }
 
+/// No line in time, and no end of the output.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Silent {
+    /// It runs on.
+    Running,
+    /// It has ended; another process holds its output.
+    Ended,
+}
+
 impl Process {
     /// Starts it.
     ///
@@ -155,12 +164,15 @@ impl Process {
     /// Its next line.
     pub(super) fn receive(&mut self, limit: Duration) -> Result<Vec<u8>, Trouble> {
         match self.next_line(limit) {
-            Some(Line::Whole(line)) => Ok(line),
-            Some(Line::TooLong(line)) => Err(Trouble::TooLong(shown(&line))),
-            Some(Line::End) => {
+            Ok(Line::Whole(line)) => Ok(line),
+            Ok(Line::TooLong(line)) => Err(Trouble::TooLong(shown(&line))),
+            Ok(Line::End) => {
                 Err(self.ended(GRACE.min(limit), false).map_or(Trouble::ClosedOutput, Trouble::Ended))
             }
-            None => Err(self.ended(Duration::ZERO, true).map_or(Trouble::TimeOut(limit), Trouble::Ended)),
+            Err(Silent::Running) => Err(Trouble::TimeOut(limit)),
+            Err(Silent::Ended) => {
+                Err(self.ended(GRACE, true).map_or(Trouble::TimeOut(limit), Trouble::Ended))
+            }
         }
     }
 
@@ -170,32 +182,32 @@ impl Process {
         self.requests = None;
         let deadline = Instant::now() + limit;
         let left_behind = match self.next_line(limit) {
-            Some(Line::Whole(line) | Line::TooLong(line)) => return Err(Trouble::Unasked(shown(&line))),
-            Some(Line::End) => false,
-            None => true,
+            Ok(Line::Whole(line) | Line::TooLong(line)) => return Err(Trouble::Unasked(shown(&line))),
+            Ok(Line::End) => false,
+            Err(Silent::Running) => return Err(Trouble::DoesNotStop(limit)),
+            Err(Silent::Ended) => true,
         };
         let rest = deadline.saturating_duration_since(Instant::now()).max(GRACE.min(limit));
-        let end = self.ended(if left_behind { Duration::ZERO } else { rest }, left_behind);
-        let end = end.ok_or(Trouble::DoesNotStop(limit))?;
+        let end = self.ended(rest, left_behind).ok_or(Trouble::DoesNotStop(limit))?;
         if self.group.succeeded() && !left_behind { Ok(()) } else { Err(Trouble::Stopped(end)) }
     }
 
-    /// Its next line, or the end of its output; none if neither comes in time. Once it has ended, what it has left
-    /// behind has only a moment for more.
-    fn next_line(&mut self, limit: Duration) -> Option<Line> {
+    /// Its next line, or the end of its output. Once it has ended, what it has left behind has only a moment for more.
+    fn next_line(&mut self, limit: Duration) -> Result<Line, Silent> {
         let mut deadline = Instant::now() + limit;
-        let mut has_ended = false;
+        let mut silent = Silent::Running;
         loop {
             let rest = deadline.saturating_duration_since(Instant::now());
             match self.output.recv_timeout(GLANCE.min(rest)) {
-                Ok(line) => return Some(line),
-                Err(RecvTimeoutError::Disconnected) => return Some(Line::End),
-                Err(RecvTimeoutError::Timeout) if rest <= GLANCE => return None,
+                Ok(line) => return Ok(line),
+                Err(RecvTimeoutError::Disconnected) => return Ok(Line::End),
                 Err(RecvTimeoutError::Timeout) => {}
             }
-            if !has_ended && self.group.has_ended() {
-                has_ended = true;
-                deadline = deadline.min(Instant::now() + GRACE);
+            if silent == Silent::Running && self.group.has_ended() {
+                silent = Silent::Ended;
+                deadline = Instant::now() + GRACE.min(limit);
+            } else if Instant::now() >= deadline {
+                return Err(silent);
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::cell_cache::CellCache;
 use crate::maps::{Cells, with_grid};
-use crate::output::Number;
+use crate::output::{Number, Value};
 use mean_information::cell::Cell;
 use mean_information::map::{Encoding, Grid};
 use mean_information::{Real, Tally};
@@ -68,6 +68,28 @@ impl Measures {
     /// Cells with `p != 1/2`.
     pub fn observed(&self) -> u64 {
         self.free + self.occupied
+    }
+
+    /// Their area in square metres, if the side of a cell is known and the area is a number.
+    pub fn observed_area(&self, resolution: Option<f64>) -> Option<f64> {
+        resolution.map(|side| self.observed() as f64 * (side * side)).filter(|area| area.is_finite())
+    }
+
+    /// The entries of a record of the map, whose cells have the given side in metres.
+    pub fn entries(&self, resolution: Option<f64>) -> [(&'static str, Value); 11] {
+        [
+            ("width", Value::Count(self.width as u64)),
+            ("height", Value::Count(self.height as u64)),
+            ("resolution_m", Value::Given(resolution)),
+            ("mean_information", Value::Computed(self.mean_information)),
+            ("information_bits", Value::Computed(Some(self.information))),
+            ("entropy_bits", Value::Computed(Some(self.entropy))),
+            ("observed", Value::Count(self.observed())),
+            ("unknown", Value::Count(self.unknown)),
+            ("free", Value::Count(self.free)),
+            ("occupied", Value::Count(self.occupied)),
+            ("observed_area_m2", Value::Computed(self.observed_area(resolution).map(Number::Double))),
+        ]
     }
 }
 

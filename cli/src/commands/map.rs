@@ -66,7 +66,6 @@ impl Arguments {
 struct MeasuredMap {
     name: String,
     resolution: Option<f64>,
-    observed_area: Option<f64>,
     measures: Measures,
     warnings: Vec<String>,
 }
@@ -76,35 +75,21 @@ impl MeasuredMap {
         let measures = Measures::of(&map.cells);
         let mut warnings = map.warnings.clone();
         warnings.extend(measures.doubt.map(|doubt| doubt.warning().to_owned()));
-        let area = map.resolution.map(|side| measures.observed() as f64 * (side * side));
-        let observed_area = area.filter(|area| area.is_finite());
-        Self { name, resolution: map.resolution, observed_area, measures, warnings }
+        Self { name, resolution: map.resolution, measures, warnings }
     }
 
     fn record(&self) -> Record {
-        let m = &self.measures;
-        Record(vec![
-            ("map", Value::Text(self.name.clone())),
-            ("width", Value::Count(m.width as u64)),
-            ("height", Value::Count(m.height as u64)),
-            ("resolution_m", Value::Given(self.resolution)),
-            ("mean_information", Value::Computed(m.mean_information)),
-            ("information_bits", Value::Computed(Some(m.information))),
-            ("entropy_bits", Value::Computed(Some(m.entropy))),
-            ("observed", Value::Count(m.observed())),
-            ("unknown", Value::Count(m.unknown)),
-            ("free", Value::Count(m.free)),
-            ("occupied", Value::Count(m.occupied)),
-            ("observed_area_m2", Value::Computed(self.observed_area.map(Number::Double))),
-            ("meaningful", Value::Flag(m.doubt.is_none())),
-            ("warnings", Value::Texts(self.warnings.clone())),
-        ])
+        let mut entries = vec![("map", Value::Text(self.name.clone()))];
+        entries.extend(self.measures.entries(self.resolution));
+        entries.push(("meaningful", Value::Flag(self.measures.doubt.is_none())));
+        entries.push(("warnings", Value::Texts(self.warnings.clone())));
+        Record(entries)
     }
 
     fn cells(&self) -> [String; 8] {
         let m = &self.measures;
         let number = m.mean_information.map_or("none".to_owned(), |x| x.to_string());
-        let area = self.observed_area.map(|area| format!("\n{} m²", short(area)));
+        let area = m.observed_area(self.resolution).map(|area| format!("\n{} m²", short(area)));
         let side = self.resolution.map(|side| format!("\nof {} m", Number::given(side)));
         [
             wrapped(&self.name),

@@ -210,10 +210,8 @@ struct Simulated<'a> {
 impl Simulated<'_> {
     fn record(&self) -> Record {
         let Arguments { room, drift, seed, sensor, resolution, .. } = self.arguments;
-        let m = &self.measures;
         let text = |path: &Path| Value::Text(path.display().to_string());
-        let area = m.observed() as f64 * (resolution * resolution);
-        Record(vec![
+        let mut entries = vec![
             ("map", text(self.files.yaml)),
             ("image", text(self.files.image)),
             ("array", text(self.files.array)),
@@ -224,24 +222,14 @@ impl Simulated<'_> {
             ("range_max_m", Value::Given(Some(sensor.range_max))),
             ("sigma_m", Value::Given(Some(sensor.sigma))),
             ("noise_m", Value::Given(Some(self.arguments.noise()))),
-            ("width", Value::Count(m.width as u64)),
-            ("height", Value::Count(m.height as u64)),
-            ("resolution_m", Value::Given(Some(*resolution))),
-            ("mean_information", Value::Computed(m.mean_information)),
-            ("information_bits", Value::Computed(Some(m.information))),
-            ("entropy_bits", Value::Computed(Some(m.entropy))),
-            ("observed", Value::Count(m.observed())),
-            ("unknown", Value::Count(m.unknown)),
-            ("free", Value::Count(m.free)),
-            ("occupied", Value::Count(m.occupied)),
-            (
-                "observed_area_m2",
-                Value::Computed(Some(area).filter(|area| area.is_finite()).map(Number::Double)),
-            ),
+        ];
+        entries.extend(self.measures.entries(Some(*resolution)));
+        entries.extend([
             ("quantisation", Value::Given(Some(ros::QUANTISATION))),
             ("mean_information_of_image", Value::Computed(self.read.mean_information)),
             ("poses", Value::Records(self.poses.iter().map(pose_record).collect())),
-        ])
+        ]);
+        Record(entries)
     }
 }
 

@@ -1,6 +1,7 @@
 //! Curves in panels over one horizontal axis.
 
 use super::axis::{Axis, power_of_ten};
+use super::frame::{Side, curve, frame, legend};
 use super::scale::ticks;
 use super::{Drawing, LABEL, TITLE};
 use crate::output::short;
@@ -149,29 +150,16 @@ impl<const PANELS: usize> Chart<PANELS> {
         let own = || panel.curves.iter().flat_map(|curve| &curve.points);
         let horizontal = self.scale.axis(all().map(|&(x, _)| self.scale.place(x)), MARGINS[0], 0.0);
         // The legend takes a part of the height; of the points' span, that much more.
-        let legend = (LEGEND[0] * panel.curves.len() as f64 + LEGEND[1]) / PLOT_HEIGHT;
-        let free = legend / (1.0 - legend) * (1.0 + 2.0 * MARGINS[1]);
+        let part = (LEGEND[0] * panel.curves.len() as f64 + LEGEND[1]) / PLOT_HEIGHT;
+        let free = part / (1.0 - part) * (1.0 + 2.0 * MARGINS[1]);
         let vertical = panel.scale.axis(own().map(|&(_, y)| panel.scale.place(y)), MARGINS[1], free);
         let (bottom, top) = (vertical.range.start, vertical.range.end);
         let middle = f64::midpoint(horizontal.range.start, horizontal.range.end);
-        let mut chart = ChartBuilder::on(area)
-            .margin(12)
-            .margin_right(28)
-            .set_label_area_size(LabelAreaPosition::Left, 104)
-            .set_label_area_size(LabelAreaPosition::Bottom, 56)
-            .build_cartesian_2d(horizontal, vertical)?;
-        chart
-            .configure_mesh()
-            .max_light_lines(0)
-            .bold_line_style(RGBColor(220, 220, 220))
-            .axis_style(BLACK)
-            .label_style(LABEL)
-            .axis_desc_style(LABEL)
-            .x_desc(self.horizontal)
-            .y_desc(panel.vertical)
-            .x_label_formatter(&|place| self.scale.label(*place))
-            .y_label_formatter(&|place| panel.scale.label(*place))
-            .draw()?;
+        let mut chart = frame(
+            area,
+            Side { axis: horizontal, title: self.horizontal, label: &|place| self.scale.label(place) },
+            Side { axis: vertical, title: panel.vertical, label: &|place| panel.scale.label(place) },
+        )?;
         for &(x, name) in &panel.marks {
             let x = self.scale.place(x);
             let line = [(x, bottom), (x, top)];
@@ -182,28 +170,11 @@ impl<const PANELS: usize> Chart<PANELS> {
             let foot = EmptyElement::at((x, bottom + 0.08 * (top - bottom)));
             chart.draw_series([foot + Text::new(name, (away, 0), style)])?;
         }
-        for curve in &panel.curves {
-            let (colour, dots) = (curve.colour.rgb(), curve.dots);
+        for Curve { name, colour, dots, points } in &panel.curves {
             let points: Vec<_> =
-                curve.points.iter().map(|&(x, y)| (self.scale.place(x), panel.scale.place(y))).collect();
-            chart
-                .draw_series(LineSeries::new(points.iter().copied(), colour.stroke_width(2)))?
-                .label(&*curve.name)
-                .legend(move |at| {
-                    EmptyElement::at(at)
-                        + PathElement::new([(0, 0), (20, 0)], colour.stroke_width(2))
-                        + Circle::new((10, 0), if dots { 4 } else { 0 }, colour.filled())
-                });
-            if dots {
-                chart.draw_series(points.into_iter().map(|point| Circle::new(point, 4, colour.filled())))?;
-            }
+                points.iter().map(|&(x, y)| (self.scale.place(x), panel.scale.place(y))).collect();
+            curve(&mut chart, name, colour.rgb(), *dots, &points)?;
         }
-        chart
-            .configure_series_labels()
-            .position(SeriesLabelPosition::UpperRight)
-            .background_style(WHITE)
-            .border_style(RGBColor(160, 160, 160))
-            .label_font(LABEL)
-            .draw()
+        legend(&mut chart)
     }
 }

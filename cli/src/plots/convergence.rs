@@ -2,7 +2,8 @@
 //! both kinds of grid.
 
 use super::axis::Axis;
-use super::{Drawing, LABEL, TITLE};
+use super::frame::{Side, curve, frame, legend};
+use super::{Drawing, TITLE};
 use crate::convergence::{Convergence, GridKind, Series};
 use crate::output::{decimal_exponent, short};
 use plotters::coord::Shift;
@@ -89,24 +90,15 @@ impl Drawing for ConvergencePlot<'_> {
         // The legend has the room above the ticks.
         let highest = vertical.ticks.last().map_or(vertical.range.end, |&tick| tick);
         let inside = |y: f64| y.clamp(vertical.range.start, highest);
-        let mut chart = ChartBuilder::on(&paper)
-            .margin(12)
-            .margin_right(28)
-            .set_label_area_size(LabelAreaPosition::Left, 104)
-            .set_label_area_size(LabelAreaPosition::Bottom, 56)
-            .build_cartesian_2d(horizontal, vertical.clone())?;
-        chart
-            .configure_mesh()
-            .max_light_lines(0)
-            .bold_line_style(RGBColor(220, 220, 220))
-            .axis_style(BLACK)
-            .label_style(LABEL)
-            .axis_desc_style(LABEL)
-            .x_desc("cell size (m)")
-            .y_desc("mean information (bits / cell)")
-            .x_label_formatter(&|logarithm| short(libm::exp10(*logarithm)))
-            .y_label_formatter(&|bits| short(*bits))
-            .draw()?;
+        let mut chart = frame(
+            &paper,
+            Side {
+                axis: horizontal,
+                title: "cell size (m)",
+                label: &|logarithm| short(libm::exp10(logarithm)),
+            },
+            Side { axis: vertical.clone(), title: "mean information (bits / cell)", label: &short },
+        )?;
         for series in &self.convergence.series {
             let above = series.band.iter().map(|&(x, bound)| (x, inside(series.limit + bound)));
             let below = series.band.iter().rev().map(|&(x, bound)| (x, inside(series.limit - bound)));
@@ -134,22 +126,8 @@ impl Drawing for ConvergencePlot<'_> {
             let mut points: Vec<_> =
                 series.rows.iter().map(|row| (libm::log10(row.resolution), row.mean_information)).collect();
             points.sort_by(|a, b| a.0.total_cmp(&b.0));
-            chart
-                .draw_series(LineSeries::new(points.iter().copied(), colour.stroke_width(2)))?
-                .label(format!("{} grid", series.kind.adjective()))
-                .legend(move |at| {
-                    EmptyElement::at(at)
-                        + PathElement::new([(0, 0), (20, 0)], colour.stroke_width(2))
-                        + Circle::new((10, 0), 4, colour.filled())
-                });
-            chart.draw_series(points.into_iter().map(|point| Circle::new(point, 4, colour.filled())))?;
+            curve(&mut chart, &format!("{} grid", series.kind.adjective()), colour, true, &points)?;
         }
-        chart
-            .configure_series_labels()
-            .position(SeriesLabelPosition::UpperRight)
-            .background_style(WHITE)
-            .border_style(RGBColor(160, 160, 160))
-            .label_font(LABEL)
-            .draw()
+        legend(&mut chart)
     }
 }

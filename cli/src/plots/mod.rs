@@ -6,6 +6,7 @@ mod bitmap;
 mod canvas;
 mod chart;
 mod convergence;
+mod frame;
 mod heat_map;
 mod panels;
 mod scale;

@@ -1,7 +1,8 @@
 //! Mean information and total entropy against cell size: the contrast behind Fig. 2d of the paper.
 
 use super::axis::{Axis, power_of_ten};
-use super::{Drawing, LABEL, TITLE};
+use super::frame::{Side, curve, frame, legend};
+use super::{Drawing, TITLE};
 use crate::output::short;
 use crate::sweep::{Step, Sweep};
 use plotters::coord::Shift;
@@ -33,7 +34,7 @@ struct Panel<'a> {
     label: &'a str,
     colour: RGBColor,
     points: &'a [(f64, f64)],
-    tick_label: &'a dyn Fn(&f64) -> String,
+    tick_label: &'a dyn Fn(f64) -> String,
 }
 
 impl SweepPlot {
@@ -103,7 +104,7 @@ impl Drawing for SweepPlot {
                 label: self.entropy_label,
                 colour: ENTROPY,
                 points: &self.entropy,
-                tick_label: &|exponent| power_of_ten(*exponent as i32),
+                tick_label: &|exponent| power_of_ten(exponent as i32),
             },
         )
     }
@@ -121,40 +122,16 @@ impl SweepPlot {
             range: -0.4..last as f64 + 0.4,
             ticks: (0..=last).step_by(stride).map(|step| step as f64).collect(),
         };
-        let mut chart = ChartBuilder::on(area)
-            .margin(12)
-            .margin_right(28)
-            .set_label_area_size(LabelAreaPosition::Left, 104)
-            .set_label_area_size(LabelAreaPosition::Bottom, 56)
-            .build_cartesian_2d(steps, panel.axis.clone())?;
-        chart
-            .configure_mesh()
-            .max_light_lines(0)
-            .bold_line_style(RGBColor(220, 220, 220))
-            .axis_style(BLACK)
-            .label_style(LABEL)
-            .axis_desc_style(LABEL)
-            .x_desc(&*self.cell_axis)
-            .y_desc(panel.axis_label)
-            .x_label_formatter(&|step| self.cell_sizes[*step as usize].clone())
-            .y_label_formatter(panel.tick_label)
-            .draw()?;
-        let colour = panel.colour;
-        chart
-            .draw_series(LineSeries::new(panel.points.iter().copied(), colour.stroke_width(2)))?
-            .label(panel.label)
-            .legend(move |at| {
-                EmptyElement::at(at)
-                    + PathElement::new([(0, 0), (20, 0)], colour.stroke_width(2))
-                    + Circle::new((10, 0), 4, colour.filled())
-            });
-        chart.draw_series(panel.points.iter().map(|&point| Circle::new(point, 4, colour.filled())))?;
-        chart
-            .configure_series_labels()
-            .position(SeriesLabelPosition::UpperRight)
-            .background_style(WHITE)
-            .border_style(RGBColor(160, 160, 160))
-            .label_font(LABEL)
-            .draw()
+        let mut chart = frame(
+            area,
+            Side {
+                axis: steps,
+                title: &self.cell_axis,
+                label: &|step| self.cell_sizes[step as usize].clone(),
+            },
+            Side { axis: panel.axis.clone(), title: panel.axis_label, label: panel.tick_label },
+        )?;
+        curve(&mut chart, panel.label, panel.colour, true, panel.points)?;
+        legend(&mut chart)
     }
 }

@@ -1,0 +1,77 @@
+//! What the plots of curves share: the frame with its axes, the curves, the legend.
+
+use super::LABEL;
+use super::axis::Axis;
+use plotters::coord::Shift;
+use plotters::prelude::*;
+
+/// What is along a side of the frame.
+pub(super) struct Side<'a> {
+    pub(super) axis: Axis,
+    pub(super) title: &'a str,
+    pub(super) label: &'a dyn Fn(f64) -> String,
+}
+
+pub(super) type Frame<'a, B> = ChartContext<'a, B, Cartesian2d<Axis, Axis>>;
+pub(super) type Failure<E> = DrawingAreaErrorKind<E>;
+
+/// The frame, its axes and the lines at their ticks.
+pub(super) fn frame<'a, B: DrawingBackend>(
+    area: &DrawingArea<B, Shift>,
+    horizontal: Side,
+    vertical: Side,
+) -> Result<Frame<'a, B>, Failure<B::ErrorType>> {
+    let mut frame = ChartBuilder::on(area)
+        .margin(12)
+        .margin_right(28)
+        .set_label_area_size(LabelAreaPosition::Left, 104)
+        .set_label_area_size(LabelAreaPosition::Bottom, 56)
+        .build_cartesian_2d(horizontal.axis, vertical.axis)?;
+    frame
+        .configure_mesh()
+        .max_light_lines(0)
+        .bold_line_style(RGBColor(220, 220, 220))
+        .axis_style(BLACK)
+        .label_style(LABEL)
+        .axis_desc_style(LABEL)
+        .x_desc(horizontal.title)
+        .y_desc(vertical.title)
+        .x_label_formatter(&|x| (horizontal.label)(*x))
+        .y_label_formatter(&|y| (vertical.label)(*y))
+        .draw()?;
+    Ok(frame)
+}
+
+/// A line through the points, with dots on them if wanted, and its line in the legend.
+pub(super) fn curve<'a, B: DrawingBackend + 'a>(
+    frame: &mut Frame<'a, B>,
+    name: &str,
+    colour: RGBColor,
+    dots: bool,
+    points: &[(f64, f64)],
+) -> Result<(), Failure<B::ErrorType>> {
+    frame.draw_series(LineSeries::new(points.iter().copied(), colour.stroke_width(2)))?.label(name).legend(
+        move |at| {
+            EmptyElement::at(at)
+                + PathElement::new([(0, 0), (20, 0)], colour.stroke_width(2))
+                + Circle::new((10, 0), if dots { 4 } else { 0 }, colour.filled())
+        },
+    );
+    if dots {
+        frame.draw_series(points.iter().map(|&point| Circle::new(point, 4, colour.filled())))?;
+    }
+    Ok(())
+}
+
+/// The names of what is drawn, in the upper right corner.
+pub(super) fn legend<'a, B: DrawingBackend + 'a>(
+    frame: &mut Frame<'a, B>,
+) -> Result<(), Failure<B::ErrorType>> {
+    frame
+        .configure_series_labels()
+        .position(SeriesLabelPosition::UpperRight)
+        .background_style(WHITE)
+        .border_style(RGBColor(160, 160, 160))
+        .label_font(LABEL)
+        .draw()
+}

@@ -8,8 +8,32 @@ use core::fmt::{Debug, Display, LowerExp};
 use num_traits::float::FloatCore;
 
 mod sealed {
-    pub trait Sealed {}
+    #[cfg(feature = "std")]
+    use crate::rounded::lanes::{BLOCK, Block, Lane};
+
+    pub trait Sealed: Sized {
+        /// Many cells at once, by the vector unit.
+        #[cfg(feature = "std")]
+        fn sums(occupancies: &[Self; BLOCK]) -> Block;
+
+        /// The same, of information only.
+        #[cfg(feature = "std")]
+        fn information(occupancies: &[Self; BLOCK]) -> Block;
+    }
+
+    #[cfg(feature = "std")]
+    impl<T: Lane> Sealed for T {
+        fn sums(occupancies: &[Self; BLOCK]) -> Block {
+            Lane::sums(occupancies)
+        }
+
+        fn information(occupancies: &[Self; BLOCK]) -> Block {
+            Lane::information(occupancies)
+        }
+    }
+    #[cfg(not(feature = "std"))]
     impl Sealed for f32 {}
+    #[cfg(not(feature = "std"))]
     impl Sealed for f64 {}
 }
 

@@ -2,6 +2,7 @@
 //!
 //! An encoding gives every stored value its exact meaning. Unknown is exact in all of them: `p = 1/2`, `l = 0`.
 
+use super::histogram::histogram;
 use crate::cell::{self, Cell};
 use crate::real::Real;
 use crate::tally::Tally;
@@ -44,6 +45,11 @@ pub trait Encoding: Copy + Debug {
     fn tally(cells: &[Self::Stored]) -> Tally<Self::Float> {
         cells.iter().filter_map(|&stored| Self::cell(stored)).collect()
     }
+
+    /// The mean information of the stored cells: that of their tally, but entropies need not be computed.
+    fn mean_information(cells: &[Self::Stored]) -> Self::Float {
+        Self::tally(cells).mean_information()
+    }
 }
 
 /// Occupancy probabilities `p` in `[0, 1]`; unknown is 1/2.
@@ -69,6 +75,18 @@ impl<T: Real> Encoding for Probability<T> {
 
     fn occupancy(p: T) -> Option<T> {
         cell::in_unit_interval(p).then_some(p)
+    }
+
+    fn tally(cells: &[T]) -> Tally<T> {
+        let mut tally = Tally::new();
+        tally.add_occupancies(cells);
+        tally
+    }
+
+    fn mean_information(cells: &[T]) -> T {
+        let mut tally = Tally::new();
+        tally.add_information(cells);
+        tally.mean_information()
     }
 }
 
@@ -197,12 +215,8 @@ impl Encoding for MrptLogOdds {
 
 /// Counts each of the 256 values first, then adds 256 exact terms: the same sum, since it is exact.
 fn tally_of_bytes<E: Encoding<Stored = i8>>(cells: &[i8]) -> Tally<E::Float> {
-    let mut counts = [0_u64; 256];
-    for &stored in cells {
-        counts[usize::from(stored as u8)] += 1;
-    }
     let mut tally = Tally::new();
-    for (byte, &count) in (0_u8..=255).zip(&counts) {
+    for (byte, count) in (0_u8..=255).zip(histogram(cells)) {
         if count > 0
             && let Some(cell) = E::cell(byte as i8)
         {

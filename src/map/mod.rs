@@ -4,6 +4,7 @@
 pub mod encoding;
 mod geometry;
 mod grid;
+mod histogram;
 mod polar;
 mod pooling;
 

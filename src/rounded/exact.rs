@@ -17,7 +17,11 @@ use super::fixed::{exp_neg as fixed_exp_neg, scale_117};
 
 /// Tries 256 bits of fraction, and doubles them until the comparison is decided.
 pub(super) fn decide(compare: impl Fn(usize) -> Option<bool>) -> bool {
-    let mut fraction = 4;
+    decide_from(4, compare)
+}
+
+/// Tries as many limbs of fraction, and doubles them until the comparison is decided.
+fn decide_from(mut fraction: usize, compare: impl Fn(usize) -> Option<bool>) -> bool {
     loop {
         if let Some(above) = compare(fraction) {
             return above;
@@ -37,7 +41,7 @@ fn entropy_over_occupancy(m: u64, n: i32, fraction: usize) -> Ball {
 /// Whether `H(p)` is above the midpoint, for `p = m 2^e`.
 pub(super) fn entropy(m: u64, e: i32, midpoint: Midpoint) -> bool {
     let (m, n) = minor(m, -e);
-    decide(|fraction| {
+    decide_from(2, |fraction| {
         let factor = entropy_over_occupancy(m, n, fraction);
         let bound = Ball::ln2(fraction).scaled(midpoint.m, midpoint.exponent + n - 53);
         factor.scaled(m, -53).is_above(&bound)
@@ -50,12 +54,12 @@ pub(super) fn information(m: u64, e: i32, midpoint: Midpoint) -> bool {
         // d = root 2^scale, with root in [1/2, 1).
         let shift = d.leading_zeros() as i32;
         let scale = 64 - shift + e;
-        return decide(|fraction| {
+        return decide_from(2, |fraction| {
             information_is_above(&Ball::dyadic(d << shift, -64, fraction), scale, midpoint)
         });
     }
     let (m, n) = minor(m, -e);
-    decide(|fraction| {
+    decide_from(2, |fraction| {
         let entropy = entropy_over_occupancy(m, n, fraction).scaled(m, -n);
         complement(Ball::ln2(fraction), midpoint).is_above(&entropy)
     })

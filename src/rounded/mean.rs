@@ -29,7 +29,7 @@ fn split(x: Leading) -> (u64, i32, u64) {
     (x.m >> 11, -(x.e + 11), x.m & 0x7ff)
 }
 
-fn middle(enclosure: Enclosure) -> Fixed {
+pub(super) fn middle(enclosure: Enclosure) -> Fixed {
     Fixed { value: enclosure.lo + enclosure.width / 2, exponent: enclosure.exponent }
 }
 

@@ -21,6 +21,8 @@ pub(crate) mod extended;
 mod fixed;
 mod fusion;
 mod gaussian;
+#[cfg(feature = "std")]
+pub(crate) mod lanes;
 pub(crate) mod limbs;
 mod log_odds;
 pub(crate) mod mean;

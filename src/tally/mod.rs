@@ -12,6 +12,8 @@ pub use exact_sum::ExactSum;
 
 use crate::cell::{Cell, State};
 use crate::real::Real;
+#[cfg(feature = "std")]
+use crate::rounded::lanes::{BLOCK, Block};
 use crate::rounded::mean::Both;
 use core::marker::PhantomData;
 
@@ -80,6 +82,43 @@ impl<T: Real> Tally<T> {
         self.count(cell.state(), count);
         self.entropy.add_many(cell.entropy(), count);
         self.information.add_many(cell.information(), count);
+    }
+
+    /// Counts cells by their occupancies, with the same result as [`Tally::add`] for each; what is no probability is
+    /// passed over.
+    pub(crate) fn add_occupancies(&mut self, cells: &[T]) {
+        #[cfg(feature = "std")]
+        let cells = self.add_blocks(cells, T::sums);
+        self.extend(cells.iter().filter_map(|&p| Cell::from_occupancy(p).ok()));
+    }
+
+    /// As [`Tally::add_occupancies`], but what is counted is good for the mean information only.
+    pub(crate) fn add_information(&mut self, cells: &[T]) {
+        #[cfg(feature = "std")]
+        let cells = self.add_blocks(cells, T::information);
+        self.extend(cells.iter().filter_map(|&p| Cell::from_occupancy(p).ok()));
+    }
+
+    /// Counts as many whole blocks as there are; the cells that are left.
+    #[cfg(feature = "std")]
+    fn add_blocks<'a>(&mut self, mut cells: &'a [T], sums: fn(&[T; BLOCK]) -> Block) -> &'a [T] {
+        while let Some((block, rest)) = cells.split_first_chunk() {
+            cells = rest;
+            let sums = sums(block);
+            if let Some(entropy) = sums.entropy {
+                self.entropy.add_fixed::<T>(entropy);
+            }
+            self.information.add_fixed::<T>(sums.information);
+            self.unknown += sums.unknown;
+            self.occupied += sums.occupied;
+            let mut left = 0;
+            for (_, &p) in sums.closed.iter().zip(block).filter(|(closed, _)| **closed == 0) {
+                left += 1;
+                self.extend(Cell::from_occupancy(p).ok());
+            }
+            self.free += block.len() as u64 - left - sums.unknown - sums.occupied;
+        }
+        cells
     }
 
     /// Counts one cell whose entropy and information are known beyond the precision of a float.

@@ -1,0 +1,90 @@
+//! A map's cells: the time of a cell in each encoding, beside the least that reading them takes.
+//!
+//! `cargo bench --bench map`.
+
+#![allow(missing_docs)]
+
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use mean_information::map::encoding::{Encoding, MrptLogOdds, Percent, Probability};
+use mean_information::{Real, Tally};
+use std::hint::black_box;
+
+/// Four times the second-level cache of today's machines would hold in `f64`.
+const COUNT: usize = 1 << 20;
+
+/// Occupancies spread over (0, 1) by the golden ratio.
+fn occupancies<T: Real>() -> Vec<T> {
+    (1..=COUNT).map(|k| T::nearest((k as f64 * 0.618_033_988_749_894_9).fract())).collect()
+}
+
+/// Every value about as often, in no order.
+fn bytes(allowed: impl Fn(i8) -> bool) -> Vec<i8> {
+    let mut state = 0x9e37_79b9_7f4a_7c15_u64;
+    let mut next = || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 56) as i8
+    };
+    std::iter::repeat_with(|| next()).filter(|&b| allowed(b)).take(COUNT).collect()
+}
+
+/// A map as ROS saves it: long runs of free, occupied and unknown.
+fn trinary() -> Vec<i8> {
+    (0..COUNT).map(|k| [0, -1, 0, -1, -1, 100][k / 97 % 6]).collect()
+}
+
+fn one_by_one<E: Encoding>(cells: &[E::Stored]) -> Tally<E::Float> {
+    cells.iter().filter_map(|&stored| E::cell(stored)).collect()
+}
+
+/// Eq. 4 as it is usually written: two logarithms a cell, a sum in the order of the cells.
+fn two_logarithms<T: Real + Into<f64>>(cells: &[T]) -> f64 {
+    let information = |p: f64| 1.0 + p * p.log2() + (1.0 - p) * (1.0 - p).log2();
+    let observed = cells.iter().map(|&p| p.into()).filter(|&p: &f64| p != 0.5);
+    let (sum, count) = observed.fold((0.0, 0_u32), |(sum, count), p| (sum + information(p), count + 1));
+    sum / f64::from(count)
+}
+
+fn encoding<E: Encoding>(criterion: &mut Criterion, name: &str, cells: &[E::Stored]) {
+    assert_eq!(E::tally(cells), one_by_one::<E>(cells));
+    let mut group = criterion.benchmark_group(name);
+    group.throughput(Throughput::Elements(COUNT as u64));
+    assert_eq!(E::mean_information(cells), E::tally(cells).mean_information());
+    group.bench_function("tally", |bencher| bencher.iter(|| E::tally(black_box(cells))));
+    group
+        .bench_function("mean information", |bencher| bencher.iter(|| E::mean_information(black_box(cells))));
+    group.finish();
+}
+
+fn floats(criterion: &mut Criterion) {
+    encoding::<Probability<f64>>(criterion, "f64", &occupancies());
+    encoding::<Probability<f32>>(criterion, "f32", &occupancies());
+    let cells = occupancies::<f64>();
+    let mut group = criterion.benchmark_group("f64");
+    group.throughput(Throughput::Elements(COUNT as u64));
+    group.sample_size(20);
+    group.bench_function(BenchmarkId::from_parameter("two logarithms"), |bencher| {
+        bencher.iter(|| two_logarithms(black_box(&cells)));
+    });
+    group.bench_function(BenchmarkId::from_parameter("one by one"), |bencher| {
+        bencher.iter(|| one_by_one::<Probability<f64>>(black_box(&cells)));
+    });
+    group.finish();
+}
+
+fn stored_bytes(criterion: &mut Criterion) {
+    let any = bytes(|_| true);
+    encoding::<MrptLogOdds>(criterion, "bytes, mixed", &any);
+    encoding::<Percent>(criterion, "percent, mixed", &bytes(|b| (-1..=100).contains(&b)));
+    encoding::<Percent>(criterion, "percent, trinary", &trinary());
+    let mut group = criterion.benchmark_group("bytes");
+    group.throughput(Throughput::Elements(COUNT as u64));
+    group.bench_function("sum", |bencher| {
+        bencher.iter(|| black_box(&any).iter().map(|&b| u64::from(b as u8)).sum::<u64>());
+    });
+    group.finish();
+}
+
+criterion_group!(benches, floats, stored_bytes);
+criterion_main!(benches);

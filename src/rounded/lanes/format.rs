@@ -1,0 +1,146 @@
+//! What the kernel does differently in `f32` and `f64`.
+
+use super::kernel::{BLOCK, Block};
+use super::table::Table;
+use super::{double, single};
+use crate::real::Real;
+use std::sync::LazyLock;
+
+/// The significand bits by which a distance finds its centre: each binade has `2^CELL_BITS` centres.
+pub(super) const CELL_BITS: u32 = 7;
+/// The centres of one half of the table, a power of two so that an index is a mask.
+pub(super) const HALF: usize = 2048;
+
+/// A format of floats and the integer of its bits, one lane of a vector.
+pub(crate) trait Lane: Real {
+    /// The integer that holds the bits of a float.
+    type Word: Copy + Default + core::fmt::Debug + Send + Sync + 'static;
+    /// Distances below `2^-BINADES` have no centre.
+    const BINADES: i32;
+    /// The coefficients of the polynomial.
+    const TERMS: usize;
+    /// A bound on the error before rounding, relative to the value that is summed up: see the chapter on rounding.
+    const ERROR: Self;
+
+    /// The sums over a block of occupancies, by the widest vector unit at hand.
+    fn sums(cells: &[Self; BLOCK]) -> Block;
+
+    /// Those of information only.
+    fn information(cells: &[Self; BLOCK]) -> Block;
+
+    /// The centre of the cell of the table in which `x` in `[2^-BINADES, 1/2]` lies, and the cell's number in its half.
+    /// Any pair, the number below [`HALF`], for other `x`.
+    fn centre(x: Self) -> (Self, u32);
+
+    /// The centre of the cell of a number; `None` beyond the last.
+    fn centre_of(number: usize) -> Option<Self>;
+
+    /// Two floats of few bits in one word.
+    fn pack(value: Self, slope: Self) -> Self::Word;
+
+    /// The floats of [`Lane::pack`], the first with noise in its last bits.
+    fn unpack(word: Self::Word) -> (Self, Self);
+
+    /// The float cut to 9 bits.
+    fn head(self) -> Self;
+
+    /// `a b + c`, rounded once.
+    fn fused(a: Self, b: Self, c: Self) -> Self;
+
+    /// Adds the bits of a float to a sum of bits.
+    fn add_bits(sum: Self::Word, x: Self) -> Self::Word;
+
+    /// Counts one more if `yes`.
+    fn count(count: Self::Word, yes: bool) -> Self::Word;
+
+    /// A count as any other number.
+    fn counted(count: Self::Word) -> u64;
+
+    /// A sum of the bits of `count` floats `origin + k ulp`, taken apart: the sum of the `k`.
+    fn ulps(sum: Self::Word, origin: Self, count: usize) -> i64;
+}
+
+macro_rules! impl_lane {
+    ($float:ident, $word:ident, $signed:ident, $block:ident, $binades:literal, $terms:literal, $slope:literal, $error:literal) => {
+        impl Lane for $float {
+            type Word = $word;
+            const BINADES: i32 = $binades;
+            const TERMS: usize = $terms;
+            const ERROR: Self = $error;
+
+            fn sums(cells: &[Self; BLOCK]) -> Block {
+                static TABLE: LazyLock<Table<$float>> = LazyLock::new(|| Table::new(true));
+                $block::sums(&TABLE, cells)
+            }
+
+            fn information(cells: &[Self; BLOCK]) -> Block {
+                static TABLE: LazyLock<Table<$float>> = LazyLock::new(|| Table::new(false));
+                $block::information(&TABLE, cells)
+            }
+
+            #[inline(always)]
+            fn centre(x: Self) -> (Self, u32) {
+                const BELOW: u32 = $float::PRECISION - 1 - CELL_BITS;
+                const FIRST: $word = (($float::MAX_EXP - 1 - $binades) as $word) << CELL_BITS;
+                let cell = x.to_bits() >> BELOW;
+                let centre = Self::from_bits(x.to_bits() & !((1 << BELOW) - 1) | 1 << (BELOW - 1));
+                (centre, cell.wrapping_sub(FIRST) as u32 & (HALF as u32 - 1))
+            }
+
+            fn centre_of(number: usize) -> Option<Self> {
+                let binade = $float::from_parts(1, (number >> CELL_BITS) as i32 - $binades);
+                let x =
+                    binade + (number % (1 << CELL_BITS)) as $float * (binade / (1 << CELL_BITS) as $float);
+                (x <= 0.5).then(|| Self::centre(x).0)
+            }
+
+            fn pack(value: Self, slope: Self) -> $word {
+                const LOW: $word = (1 << $slope) - 1;
+                let slope = slope.to_bits() >> (8 * size_of::<$word>() as u32 - $slope);
+                // Of the two words next to the value, the nearer.
+                let below = value.to_bits() & !LOW | slope;
+                let beside = [below, below.wrapping_sub(LOW + 1), below.wrapping_add(LOW + 1)];
+                let distance = |word: &$word| ($float::from_bits(*word) - value).abs();
+                beside.into_iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(below)
+            }
+
+            #[inline(always)]
+            fn unpack(word: $word) -> (Self, Self) {
+                const UP: u32 = 8 * size_of::<$word>() as u32 - $slope;
+                (Self::from_bits(word), Self::from_bits(word << UP))
+            }
+
+            #[inline(always)]
+            fn head(self) -> Self {
+                const BELOW: u32 = $float::PRECISION - 9;
+                Self::from_bits(self.to_bits() & !((1 << BELOW) - 1))
+            }
+
+            #[inline(always)]
+            fn fused(a: Self, b: Self, c: Self) -> Self {
+                a.mul_add(b, c)
+            }
+
+            #[inline(always)]
+            fn add_bits(sum: $word, x: Self) -> $word {
+                sum.wrapping_add(x.to_bits())
+            }
+
+            #[inline(always)]
+            fn count(count: $word, yes: bool) -> $word {
+                count + $word::from(yes)
+            }
+
+            fn counted(count: $word) -> u64 {
+                u64::from(count)
+            }
+
+            fn ulps(sum: $word, origin: Self, count: usize) -> i64 {
+                i64::from(sum.wrapping_sub(origin.to_bits().wrapping_mul(count as $word)) as $signed)
+            }
+        }
+    };
+}
+
+impl_lane!(f32, u32, i32, single, 10, 3, 12, 4e-11); // 2^-34.5
+impl_lane!(f64, u64, i64, double, 16, 6, 24, 1.1e-19); // 2^-63

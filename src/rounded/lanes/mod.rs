@@ -1,0 +1,49 @@
+//! Entropy and information of many cells at once, correctly rounded, in the lanes of whatever vector unit there is.
+//!
+//! Ziv's strategy once more, with a first step in floating point and without branches, which compilers turn into vector
+//! instructions: about each of some thousand centres, value and slope are known to twice the precision ([`table`]), the
+//! rest is a short polynomial ([`kernel`]), and a rounding test shows whether the sum of them all has one nearest float.
+//! The few cells that fail it are left to [`Bits`](super::Bits). So every vector unit gives the same bits: the right ones.
+//! The proof is in the chapter [`rounding`](crate::book::rounding).
+
+// A call or a branch in the loop and it is no longer made into vector instructions.
+#![allow(clippy::inline_always, clippy::needless_bitwise_bool)]
+
+mod format;
+mod kernel;
+mod table;
+
+pub(crate) use format::Lane;
+pub(crate) use kernel::{BLOCK, Block};
+
+use multiversion::multiversion;
+use multiversion::target::target_cfg_f;
+use table::Table;
+
+/// The kernels for a format, each compiled for several vector units; the widest that the processor has is taken.
+macro_rules! dispatch {
+    ($format:ident, $float:ident) => {
+        mod $format {
+            use super::*;
+
+            dispatch!(sums, $float, true);
+            dispatch!(information, $float, false);
+        }
+    };
+    ($name:ident, $float:ident, $entropy:literal) => {
+        #[multiversion(targets(
+            "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+bmi2+fma",
+            "x86_64+avx2+bmi2+fma"
+        ))]
+        pub(super) fn $name(table: &Table<$float>, cells: &[$float; BLOCK]) -> Block {
+            if target_cfg_f!(any(target_feature = "fma", target_arch = "aarch64")) {
+                Block::of::<$float, true, $entropy>(table, cells)
+            } else {
+                Block::of::<$float, false, $entropy>(table, cells)
+            }
+        }
+    };
+}
+
+dispatch!(single, f32);
+dispatch!(double, f64);

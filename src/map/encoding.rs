@@ -5,7 +5,7 @@
 use super::histogram::histogram;
 use crate::cell::{self, Cell};
 use crate::real::Real;
-use crate::tally::Tally;
+use crate::tally::{Information, Tally};
 use core::fmt::Debug;
 use core::marker::PhantomData;
 
@@ -46,9 +46,9 @@ pub trait Encoding: Copy + Debug {
         cells.iter().filter_map(|&stored| Self::cell(stored)).collect()
     }
 
-    /// The mean information of the stored cells: that of their tally, but entropies need not be computed.
-    fn mean_information(cells: &[Self::Stored]) -> Self::Float {
-        Self::tally(cells).mean_information()
+    /// The information of the stored cells: that of their tally, but entropies need not be computed.
+    fn information(cells: &[Self::Stored]) -> Information<Self::Float> {
+        (&Self::tally(cells)).into()
     }
 }
 
@@ -78,15 +78,11 @@ impl<T: Real> Encoding for Probability<T> {
     }
 
     fn tally(cells: &[T]) -> Tally<T> {
-        let mut tally = Tally::new();
-        tally.add_occupancies(cells);
-        tally
+        Tally::from_occupancies(cells)
     }
 
-    fn mean_information(cells: &[T]) -> T {
-        let mut tally = Tally::new();
-        tally.add_information(cells);
-        tally.mean_information()
+    fn information(cells: &[T]) -> Information<T> {
+        Information::from_occupancies(cells)
     }
 }
 

@@ -2,8 +2,12 @@
 
 use super::{Encoding, Geometry};
 use crate::error::Error;
+#[cfg(feature = "rayon")]
+use crate::tally::Information;
 use crate::tally::Tally;
 use alloc::vec::Vec;
+#[cfg(feature = "rayon")]
+use rayon::prelude::*;
 
 /// An occupancy map: rows of square cells in one [`Encoding`], with its place in the world.
 ///
@@ -82,5 +86,47 @@ impl<E: Encoding> Grid<E> {
     /// Entropy, information and counts over all cells (Eqs. 2 to 4).
     pub fn tally(&self) -> Tally<E::Float> {
         E::tally(&self.cells)
+    }
+
+    /// The mean information (Eq. 4), in bits per observed cell: the same bits as of [`Grid::tally`], sooner.
+    pub fn mean_information(&self) -> E::Float {
+        E::information(&self.cells).mean()
+    }
+}
+
+/// What a thread takes at once: 1 MiB of cells.
+#[cfg(feature = "rayon")]
+const PART: usize = 1 << 20;
+
+#[cfg(feature = "rayon")]
+impl<E: Encoding> Grid<E> {
+    /// [`Grid::tally`] by as many threads as rayon has: the same bits for any number of them.
+    ///
+    /// ```
+    /// use mean_information::map::{Geometry, Grid, encoding::Percent};
+    /// let cells = (0..2_000_000).map(|k| [0, -1, 87][k % 3]).collect();
+    /// let map = Grid::<Percent>::new(2000, 1000, Geometry::new(0.05, [0.0, 0.0])?, cells)?;
+    /// assert_eq!(map.par_tally(), map.tally());
+    /// # Ok::<(), mean_information::Error>(())
+    /// ```
+    pub fn par_tally(&self) -> Tally<E::Float> {
+        let merge = |mut sum: Tally<_>, part: Tally<_>| {
+            sum.merge(&part);
+            sum
+        };
+        self.parts().map(E::tally).reduce(Tally::new, merge)
+    }
+
+    /// [`Grid::mean_information`] by as many threads as rayon has: the same bits for any number of them.
+    pub fn par_mean_information(&self) -> E::Float {
+        let merge = |mut sum: Information<_>, part: Information<_>| {
+            sum.merge(&part);
+            sum
+        };
+        self.parts().map(E::information).reduce(Information::new, merge).mean()
+    }
+
+    fn parts(&self) -> impl ParallelIterator<Item = &[E::Stored]> {
+        self.cells.par_chunks((PART / size_of::<E::Stored>().max(1)).max(1))
     }
 }

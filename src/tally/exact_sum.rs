@@ -63,7 +63,7 @@ impl ExactSum {
     }
 
     /// Adds a number in `[0, 1]`, cut below the smallest positive `T`.
-    pub(super) fn add_fixed<T: Real>(&mut self, Fixed { value, exponent }: Fixed) {
+    pub(crate) fn add_fixed<T: Real>(&mut self, Fixed { value, exponent }: Fixed) {
         let exponent_kept = exponent.max(T::MIN_EXPONENT);
         self.add_at((exponent_kept - LOWEST) as usize, shift_right(value, exponent_kept - exponent));
     }

@@ -4,16 +4,18 @@
 //! The sums are exact ([`ExactSum`]), so a [`Tally`] does not depend on the order of the cells, nor on how they
 //! were split and merged.
 
+#[cfg(feature = "std")]
+mod blocks;
 mod exact_sum;
+mod information;
 #[cfg(feature = "serde")]
 mod portable;
 
 pub use exact_sum::ExactSum;
+pub use information::Information;
 
 use crate::cell::{Cell, State};
 use crate::real::Real;
-#[cfg(feature = "std")]
-use crate::rounded::lanes::{BLOCK, Block};
 use crate::rounded::mean::Both;
 use core::marker::PhantomData;
 
@@ -84,41 +86,31 @@ impl<T: Real> Tally<T> {
         self.information.add_many(cell.information(), count);
     }
 
-    /// Counts cells by their occupancies, with the same result as [`Tally::add`] for each; what is no probability is
-    /// passed over.
-    pub(crate) fn add_occupancies(&mut self, cells: &[T]) {
+    /// The tally of cells by their occupancies; what is no probability is passed over.
+    ///
+    /// Equal to the tally of the single cells, and many times as fast (feature `std`): whole blocks of cells are summed up by
+    /// the processor's vector unit.
+    ///
+    /// ```
+    /// use mean_information::{Tally, cell::Cell};
+    /// let cells: Vec<f32> = (0..10_000).map(|k| k as f32 / 16_384.0).collect();
+    /// let tally = Tally::from_occupancies(&cells);
+    /// assert_eq!(tally.mean_information(), 0.23047143); // bits per observed cell
+    /// assert_eq!(tally, cells.into_iter().flat_map(Cell::from_occupancy).collect());
+    /// ```
+    pub fn from_occupancies(cells: &[T]) -> Self {
+        let mut tally = Self::new();
         #[cfg(feature = "std")]
-        let cells = self.add_blocks(cells, T::sums);
-        self.extend(cells.iter().filter_map(|&p| Cell::from_occupancy(p).ok()));
-    }
-
-    /// As [`Tally::add_occupancies`], but what is counted is good for the mean information only.
-    pub(crate) fn add_information(&mut self, cells: &[T]) {
-        #[cfg(feature = "std")]
-        let cells = self.add_blocks(cells, T::information);
-        self.extend(cells.iter().filter_map(|&p| Cell::from_occupancy(p).ok()));
-    }
-
-    /// Counts as many whole blocks as there are; the cells that are left.
-    #[cfg(feature = "std")]
-    fn add_blocks<'a>(&mut self, mut cells: &'a [T], sums: fn(&[T; BLOCK]) -> Block) -> &'a [T] {
-        while let Some((block, rest)) = cells.split_first_chunk() {
-            cells = rest;
-            let sums = sums(block);
-            if let Some(entropy) = sums.entropy {
-                self.entropy.add_fixed::<T>(entropy);
-            }
-            self.information.add_fixed::<T>(sums.information);
-            self.unknown += sums.unknown;
-            self.occupied += sums.occupied;
-            let mut left = 0;
-            for (_, &p) in sums.closed.iter().zip(block).filter(|(closed, _)| **closed == 0) {
-                left += 1;
-                self.extend(Cell::from_occupancy(p).ok());
-            }
-            self.free += block.len() as u64 - left - sums.unknown - sums.occupied;
-        }
-        cells
+        let cells = blocks::each(cells, T::sums, |block, left| {
+            tally.entropy.add_fixed::<T>(block.entropy);
+            tally.information.add_fixed::<T>(block.information);
+            tally.unknown += block.unknown;
+            tally.occupied += block.occupied;
+            tally.free += block.decided() - block.unknown - block.occupied;
+            tally.extend(left.flat_map(Cell::from_occupancy));
+        });
+        tally.extend(cells.iter().flat_map(|&p| Cell::from_occupancy(p)));
+        tally
     }
 
     /// Counts one cell whose entropy and information are known beyond the precision of a float.

@@ -2,6 +2,7 @@
 //!
 //! `cargo test` checks a slice; `proofs/exhaust.sh` runs the ignored tests, which leave no input out.
 
+mod blocks;
 mod enclosure;
 mod wide;
 
@@ -134,6 +135,18 @@ fn every_occupancy() {
     exhaust("occupancies", ONE, Seen::occupancy);
 }
 
+/// In blocks of successive floats, the sums of which are compared exactly.
+#[test]
+#[ignore = "two minutes in release mode: proofs/exhaust.sh"]
+fn every_occupancy_in_blocks() {
+    const BLOCK: u32 = 256;
+    exhaust("blocks of 256 occupancies", ONE / BLOCK, |seen, block| {
+        let wrong = !blocks::agree(block * BLOCK..(block + 1) * BLOCK);
+        seen.results += 2;
+        seen.wrong += u64::from(wrong);
+    });
+}
+
 #[test]
 #[ignore = "some minutes in release mode: proofs/exhaust.sh"]
 fn every_log_odds() {
@@ -162,6 +175,14 @@ fn a_slice_of_the_occupancies() {
         assert_eq!((entropy(p), information(p)), (cell.entropy(), cell.information()));
     }
     assert!(seen.results > 250_000 && seen.wrong == 0);
+}
+
+#[test]
+fn a_slice_in_blocks() {
+    for phase in 0..4 {
+        let first = 1 + phase * 1021;
+        assert!(blocks::agree((first..=ONE).step_by(4099)), "the blocks of phase {phase}");
+    }
 }
 
 #[test]

@@ -159,6 +159,25 @@ impl<M: InverseSensorModel> CartesianRoom<M> {
         Ok(tally)
     }
 
+    /// [`CartesianRoom::tally`] by as many threads as rayon has: the same bits for any number of them.
+    ///
+    /// # Errors
+    /// As [`tally`](Self::tally).
+    #[cfg(feature = "rayon")]
+    pub fn par_tally(&self) -> Result<Tally<M::Float>, Error>
+    where
+        M: Sync,
+    {
+        use rayon::prelude::*;
+        // Rows take their own time: more parts than threads.
+        let parts = 16 * rayon::current_num_threads();
+        let merge = |mut sum: Tally<_>, part: Tally<_>| {
+            sum.merge(&part);
+            Ok(sum)
+        };
+        (0..parts).into_par_iter().map(|part| self.tally_part(part, parts)).try_reduce(Tally::new, merge)
+    }
+
     /// The map itself, row 0 the lowest, with its place in the world.
     ///
     /// # Errors

@@ -96,8 +96,9 @@ macro_rules! impl_lane {
 
             fn pack(value: Self, slope: Self) -> $word {
                 const LOW: $word = (1 << $slope) - 1;
-                let slope = slope.to_bits() >> (8 * size_of::<$word>() as u32 - $slope);
-                // Of the two words next to the value, the nearer.
+                const DOWN: u32 = 8 * size_of::<$word>() as u32 - $slope;
+                let slope = (slope.to_bits() >> (DOWN - 1)).div_ceil(2);
+                // Of the words with these bits, the nearest.
                 let below = value.to_bits() & !LOW | slope;
                 let beside = [below, below.wrapping_sub(LOW + 1), below.wrapping_add(LOW + 1)];
                 let distance = |word: &$word| ($float::from_bits(*word) - value).abs();
@@ -142,5 +143,5 @@ macro_rules! impl_lane {
     };
 }
 
-impl_lane!(f32, u32, i32, single, 10, 3, 12, 4e-11); // 2^-34.5
-impl_lane!(f64, u64, i64, double, 16, 6, 24, 1.1e-19); // 2^-63
+impl_lane!(f32, u32, i32, single, 10, 3, 12, 6.7e-11); // 2^-33.8
+impl_lane!(f64, u64, i64, double, 16, 6, 24, 5.5e-20); // 2^-64

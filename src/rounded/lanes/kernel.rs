@@ -10,8 +10,9 @@ pub(crate) const BLOCK: usize = 256;
 /// What a block of cells adds to a tally, but for those marked open.
 #[derive(Debug)]
 pub struct Block {
-    /// The exact sums of the rounded entropies, if asked for, and of the rounded information.
-    pub(crate) entropy: Option<Fixed>,
+    /// The exact sum of the rounded entropies, and of the rounded information; without entropies the first is 0, and so is the
+    /// number of occupied cells.
+    pub(crate) entropy: Fixed,
     pub(crate) information: Fixed,
     pub(crate) unknown: u64,
     pub(crate) occupied: u64,
@@ -60,6 +61,11 @@ impl<T: Lane> Sum<T> {
 }
 
 impl Block {
+    /// The number of cells in the sums.
+    pub(crate) fn decided(&self) -> u64 {
+        self.closed.iter().map(|&closed| u64::from(closed)).sum()
+    }
+
     /// Of the cells of the given occupancies, with their entropies or without.
     ///
     /// With `FUSED`, some products and sums are rounded at once, which only pays where the target has an instruction for it.
@@ -114,7 +120,7 @@ impl Block {
             }
         }
         Self {
-            entropy: ENTROPY.then(|| entropy.fixed()),
+            entropy: entropy.fixed(),
             information: information.fixed(),
             unknown: T::counted(unknown),
             occupied: T::counted(occupied),
@@ -128,7 +134,11 @@ impl Block {
 /// With `h = x - c` the Taylor series about the centre, `V = V_c + s h + h y E(b, y)`: `y = ∓h / (2 q (1 - q))`, `b = ∓(1 - 2q)`,
 /// and `E = 1/(2 ln 2) sum of e_k y^k`, whose coefficients are polynomials in `b`.
 #[inline(always)]
-fn value<T: Lane, const FUSED: bool, const ENTROPY: bool>(table: &Table<T>, x: T, near: bool) -> (T, T) {
+pub(super) fn value<T: Lane, const FUSED: bool, const ENTROPY: bool>(
+    table: &Table<T>,
+    x: T,
+    near: bool,
+) -> (T, T) {
     let fused = |a: T, b: T, c: T| if FUSED { T::fused(a, b, c) } else { a * b + c };
     let (c, number) = T::centre(x);
     let row = (number + if near { HALF as u32 } else { 0 }) as usize % (2 * HALF);

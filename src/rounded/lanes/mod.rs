@@ -47,3 +47,5 @@ macro_rules! dispatch {
 
 dispatch!(single, f32);
 dispatch!(double, f64);
+#[cfg(test)]
+mod tests;

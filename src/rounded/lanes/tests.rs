@@ -1,0 +1,167 @@
+//! The kernel against the enclosures, and its blocks against cells one by one.
+
+use super::format::Lane;
+use super::kernel::{BLOCK, Block, value};
+use super::table::Table;
+use crate::cell::{Cell, State};
+use crate::real::Real;
+use crate::rounded::mean::{self, Fixed};
+use crate::rounded::{enclose, normalised, shift_right};
+use crate::tally::ExactSum;
+use alloc::vec::Vec;
+use proptest::prelude::*;
+
+/// In units of `2^-120`.
+fn units(x: Fixed) -> i128 {
+    match -120 - x.exponent {
+        up @ ..0 => (x.value << -up) as i128,
+        down => shift_right(x.value, down) as i128,
+    }
+}
+
+fn units_of<T: Lane>(x: T) -> i128 {
+    let (value, exponent) = x.parts();
+    let magnitude = units(Fixed { value: value.into(), exponent });
+    if x < T::zero() { -magnitude } else { magnitude }
+}
+
+/// With entropies and without.
+fn tables<T: Lane>() -> [Table<T>; 2] {
+    [true, false].map(Table::new)
+}
+
+/// The error of the kernel's value at `p`, relative to the value; `None` beyond the table.
+fn error<T: Lane, const FUSED: bool, const ENTROPY: bool>(table: &Table<T>, p: T) -> Option<f64> {
+    let q = p.min(T::one() - p);
+    let near = q + q > T::HALF;
+    let x = if near { T::one() - (q + q) } else { q + q };
+    if x < T::from_parts(1, -T::BINADES) {
+        return None;
+    }
+    let (m, e) = normalised(p);
+    let (entropy, information) = enclose::from_occupancy(m, e);
+    let exact = units(mean::middle(if ENTROPY && !near { entropy } else { information }));
+    let (head, tail) = value::<T, FUSED, ENTROPY>(table, x, near);
+    Some((units_of(head) + units_of(tail) - exact).abs() as f64 / exact as f64)
+}
+
+/// Both ends of each cell of the table, where the centre is farthest, in both halves of it.
+fn ends<T: Lane>() -> impl Iterator<Item = T> {
+    let cells = (0..).map_while(T::centre_of);
+    cells.flat_map(|c| {
+        let (m, e) = c.parts();
+        // The lowest bit of a centre is half of its cell.
+        let half = T::from_parts(m & m.wrapping_neg(), e);
+        let (first, last) = (c - half, c + half - T::from_parts(1, e));
+        [first, last].into_iter().flat_map(|x| [x * T::HALF, T::HALF - x * T::HALF, T::HALF + x * T::HALF])
+    })
+}
+
+/// The largest error at the ends of the cells, relative to the bound.
+fn largest<T: Lane>() -> f64 {
+    let tables = tables::<T>();
+    let errors = ends::<T>().filter(|&p| p < T::one()).flat_map(|p| {
+        [
+            error::<T, true, true>(&tables[0], p),
+            error::<T, false, true>(&tables[0], p),
+            error::<T, true, false>(&tables[1], p),
+            error::<T, false, false>(&tables[1], p),
+        ]
+    });
+    errors.flatten().fold(0.0, f64::max) / T::ERROR.widen()
+}
+
+/// The bounds are proved in the chapter on rounding; here that they are not far above what happens.
+#[test]
+fn errors_are_within_the_bounds() {
+    let (single, double) = (largest::<f32>(), largest::<f64>());
+    assert!(single <= 1.0 && double <= 1.0, "{single} {double}");
+    assert!(single > 0.1 && double > 0.1, "{single} {double}");
+}
+
+/// What a block must have found, from its cells one by one.
+fn check<T: Lane, const FUSED: bool, const ENTROPY: bool>(table: &Table<T>, cells: &[T; BLOCK]) -> usize {
+    let block = Block::of::<T, FUSED, ENTROPY>(table, cells);
+    let (mut entropy, mut information) = (ExactSum::new(), ExactSum::new());
+    let mut states = Vec::new();
+    for (&p, _) in cells.iter().zip(block.closed).filter(|(_, closed)| *closed == 1) {
+        let cell = Cell::from_occupancy(p).expect("only probabilities are decided");
+        entropy.add(cell.entropy());
+        information.add(cell.information());
+        states.push(cell.state());
+    }
+    let sum = |x: Fixed| {
+        let mut sum = ExactSum::new();
+        sum.add_fixed::<f64>(x);
+        sum
+    };
+    let count = |state| states.iter().filter(|&&x| x == state).count() as u64;
+    assert_eq!(sum(block.information), information);
+    assert_eq!(block.unknown, count(State::Unknown));
+    if ENTROPY {
+        assert_eq!(sum(block.entropy), entropy);
+        assert_eq!(block.occupied, count(State::Occupied));
+    }
+    states.len()
+}
+
+/// The fewest cells that a kernel decides.
+fn check_all<T: Lane>([both, single]: &[Table<T>; 2], cells: &[T; BLOCK]) -> usize {
+    let decided = [
+        check::<T, true, true>(both, cells),
+        check::<T, false, true>(both, cells),
+        check::<T, true, false>(single, cells),
+        check::<T, false, false>(single, cells),
+    ];
+    decided.into_iter().min().unwrap_or(0)
+}
+
+/// Repeats the cells until the block is full.
+fn filled<T: Lane>(cells: &[T]) -> [T; BLOCK] {
+    core::array::from_fn(|k| cells[k % cells.len()])
+}
+
+fn special<T: Lane>() {
+    let tables = tables::<T>();
+    let (one, least) = (T::one(), T::from_parts(1, T::MIN_EXPONENT));
+    let ulp = T::epsilon();
+    let edge = T::from_parts(1, -T::BINADES - 1);
+    let none = [T::nan(), -T::HALF, one + ulp, T::infinity(), T::neg_infinity(), -least, T::max_value()];
+    assert_eq!(check_all(&tables, &filled(&none)), 0);
+    let exact = [T::zero(), -T::zero(), T::HALF, one];
+    assert_eq!(check_all(&tables, &filled(&exact)), BLOCK);
+    let beyond = [
+        least,
+        edge - edge * ulp,
+        one - ulp / (one + one),
+        T::HALF + ulp,
+        T::HALF - ulp,
+        T::HALF - edge * T::HALF,
+    ];
+    assert_eq!(check_all(&tables, &filled(&beyond)), 0);
+    let quarter = T::HALF * T::HALF;
+    let borders =
+        [edge, T::HALF - edge, T::HALF + edge, quarter, quarter + ulp, quarter - ulp, one - quarter];
+    assert!(check_all(&tables, &filled(&borders)) > BLOCK / 2);
+}
+
+#[test]
+fn special_cells() {
+    special::<f32>();
+    special::<f64>();
+}
+
+/// Random cells towards 0, towards 1/2 and towards 1.
+#[test]
+fn blocks_are_sums_of_cells() {
+    let (double, single) = (tables::<f64>(), tables::<f32>());
+    proptest!(ProptestConfig::with_cases(32), |(cells in prop::collection::vec(0.0_f64..1.0, BLOCK), scale in 0_i32..40)| {
+        let power = f64::from_parts(1, -scale);
+        let towards: [fn(f64) -> f64; 3] = [|d| d, |d| 0.5 + d / 2.0, |d| 1.0 - d];
+        for place in towards {
+            let cells: Vec<f64> = cells.iter().map(|d| place(d * power)).collect();
+            check_all(&double, &filled(&cells));
+            check_all(&single, &filled(&cells.iter().map(|&p| p as f32).collect::<Vec<f32>>()));
+        }
+    });
+}

@@ -79,3 +79,45 @@ fn count_all(cells: &[i8]) -> [u32; 256] {
     }
     core::array::from_fn(|byte| tables.iter().map(|table| table[byte]).sum())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use alloc::vec::Vec;
+    use proptest::prelude::*;
+
+    fn naive(cells: &[i8]) -> [u64; 256] {
+        let mut counts = [0; 256];
+        for &cell in cells {
+            counts[usize::from(cell as u8)] += 1;
+        }
+        counts
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(24))]
+        /// Stretches of few values, of the same or of others, with a stranger here and there, and of all values.
+        #[test]
+        fn counts_are_those_of_counting(
+            parts in prop::collection::vec(
+                (prop::collection::vec(any::<i8>(), 1..7), 0..2 * STRETCH, prop::option::of(any::<i8>())),
+                0..6,
+            ),
+        ) {
+            let mut cells = Vec::new();
+            for (values, length, stranger) in parts {
+                cells.extend(values.iter().cycle().take(length));
+                cells.extend(stranger);
+            }
+            prop_assert_eq!(histogram(&cells), naive(&cells));
+        }
+    }
+
+    /// Lanes hold 255 of one value, and no more come in a stretch.
+    #[test]
+    fn one_value_only() {
+        let cells = alloc::vec![-7_i8; 3 * STRETCH + 5];
+        assert_eq!(histogram(&cells), naive(&cells));
+        assert_eq!(few_values(&count_all(&cells)), Some([-7; FEW]));
+    }
+}

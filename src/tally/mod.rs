@@ -143,7 +143,9 @@ impl<T: Real> Tally<T> {
 
     /// `H(m)`, Eq. 2: the entropy of all cells, unknown ones at 1 bit each, in bits.
     ///
-    /// The exact sum of the correctly rounded entropies of the cells, rounded once to nearest.
+    /// The exact sum of the correctly rounded entropies of the cells, rounded once to nearest: within 1.5 ulp of the sum of the
+    /// exact entropies, unless that is below the normal numbers, where half a unit of the smallest number for each cell
+    /// is added.
     pub fn entropy(&self) -> T {
         self.entropy.value()
     }

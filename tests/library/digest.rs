@@ -61,7 +61,7 @@ pub(crate) fn digests() -> [u64; 2] {
 
 /// The digest of about a million and a quarter results.
 fn results() -> u64 {
-    let (mut digest, mut tally) = (Digest::new(), Tally::new());
+    let (mut digest, mut tally, mut cells) = (Digest::new(), Tally::new(), Vec::new());
     let mut state = 0x9e37_79b9_7f4a_7c15;
     for _ in 0..50_000 {
         let bits = next(&mut state);
@@ -74,6 +74,7 @@ fn results() -> u64 {
             digest.update(entropy(p as f32));
             digest.update(information(p as f32));
             tally.add(Cell::from_occupancy(p).expect("in [0, 1]"));
+            cells.push(p);
         }
         // Both tails of the log-odds, and evenly over the exponents up to 2^10.
         for l in [100.0 * (uniform - 0.5), f64::from_bits(bits % 1024.0_f64.to_bits())] {
@@ -96,6 +97,7 @@ fn results() -> u64 {
             }
         }
     }
+    assert_eq!(tally, Tally::from_occupancies(&cells), "by the vector unit");
     digest.update(tally.mean_information());
     digest.update(tally.entropy());
     for _ in 0..25_000 {

@@ -20,3 +20,5 @@ mod room;
 mod scan;
 mod sensor;
 mod tally;
+#[cfg(feature = "rayon")]
+mod threads;

@@ -2,7 +2,7 @@
 
 use super::common::{cell, mirrorable, occupancy, power};
 use mean_information::cell::{Cell, entropy, information};
-use mean_information::{ExactSum, Tally};
+use mean_information::{ExactSum, Information, Tally};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -29,6 +29,26 @@ proptest! {
         prop_assert_eq!(tally.cells(), map.len() as u64);
         prop_assert_eq!(tally.unknown(), map.iter().filter(|&&p| p == 0.5).count() as u64);
         prop_assert_eq!(tally.free(), map.iter().filter(|&&p| p < 0.5).count() as u64);
+    }
+
+    /// In blocks for a vector unit, one by one at the end; what is no probability counts nowhere.
+    #[test]
+    fn many_cells_at_once_are_the_single_cells(
+        map in vec(prop_oneof![20 => occupancy(), 1 => Just(f64::NAN), 1 => -1.0..2.0], 0..1500),
+        cut in 0..1500_usize,
+    ) {
+        let one_by_one: Tally<f64> = map.iter().flat_map(|&p| Cell::from_occupancy(p)).collect();
+        prop_assert_eq!(&Tally::from_occupancies(&map), &one_by_one);
+        let (left, right) = map.split_at(cut.min(map.len()));
+        let mut information = Information::from_occupancies(right);
+        information.merge(&Information::from_occupancies(left));
+        prop_assert_eq!(&information, &Information::from(&one_by_one));
+        prop_assert_eq!(information.mean().to_bits(), one_by_one.mean_information().to_bits());
+        prop_assert_eq!(information.total().to_bits(), one_by_one.information().to_bits());
+        let singles: Vec<f32> = map.iter().map(|&p| p as f32).collect();
+        let one_by_one: Tally<f32> = singles.iter().flat_map(|&p| Cell::from_occupancy(p)).collect();
+        prop_assert_eq!(&Tally::from_occupancies(&singles), &one_by_one);
+        prop_assert_eq!(Information::from_occupancies(&singles), Information::from(&one_by_one));
     }
 
     #[test]

@@ -16,7 +16,7 @@ use std::fs;
 const PROMISED: [(&str, u64); 2] = [
     ("limit::closed_form", 501),
     // Each cell is off by half an ulp, relative to it `2^-53`; so is the sum, which is at most an ulp. Then it is
-    // rounded.
+    // rounded. (Not so of sums below the normal numbers, if they have more than two terms: docs/guarantees.md.)
     ("Tally::", 1500),
 ];
 

@@ -8,34 +8,32 @@ use core::fmt::{Debug, Display, LowerExp};
 use num_traits::float::FloatCore;
 
 mod sealed {
-    #[cfg(feature = "std")]
-    use crate::rounded::lanes::{BLOCK, Block, Lane};
+    /// Floats of the one format or of the other.
+    #[derive(Clone, Copy, Debug)]
+    pub enum Floats<'a, const N: usize> {
+        Single(&'a [f32; N]),
+        Double(&'a [f64; N]),
+    }
 
     pub trait Sealed: Sized {
-        /// Many cells at once, by the vector unit.
-        #[cfg(feature = "std")]
-        fn sums(occupancies: &[Self; BLOCK]) -> Block;
-
-        /// The same, of information only.
-        #[cfg(feature = "std")]
-        fn information(occupancies: &[Self; BLOCK]) -> Block;
+        /// The same floats, for what is not generic.
+        fn floats<const N: usize>(floats: &[Self; N]) -> Floats<'_, N>;
     }
 
-    #[cfg(feature = "std")]
-    impl<T: Lane> Sealed for T {
-        fn sums(occupancies: &[Self; BLOCK]) -> Block {
-            Lane::sums(occupancies)
-        }
-
-        fn information(occupancies: &[Self; BLOCK]) -> Block {
-            Lane::information(occupancies)
+    impl Sealed for f32 {
+        fn floats<const N: usize>(floats: &[Self; N]) -> Floats<'_, N> {
+            Floats::Single(floats)
         }
     }
-    #[cfg(not(feature = "std"))]
-    impl Sealed for f32 {}
-    #[cfg(not(feature = "std"))]
-    impl Sealed for f64 {}
+
+    impl Sealed for f64 {
+        fn floats<const N: usize>(floats: &[Self; N]) -> Floats<'_, N> {
+            Floats::Double(floats)
+        }
+    }
 }
+#[cfg(feature = "std")]
+pub(crate) use sealed::Floats;
 
 /// A binary floating-point type of IEEE 754: `f32` or `f64`.
 ///

@@ -5,6 +5,8 @@ use super::blocks;
 use super::{ExactSum, Tally};
 use crate::cell;
 use crate::real::Real;
+#[cfg(feature = "std")]
+use crate::rounded::lanes;
 use core::marker::PhantomData;
 
 /// The sum of the information of a map and the number of its observed cells: the half of a [`Tally`] that the mean information
@@ -49,7 +51,7 @@ impl<T: Real> Information<T> {
     pub fn from_occupancies(cells: &[T]) -> Self {
         let mut sums = Self::new();
         #[cfg(feature = "std")]
-        let cells = blocks::each(cells, T::information, |block, left| {
+        let cells = blocks::each(cells, lanes::information, |block, left| {
             sums.sum.add_fixed::<T>(block.information);
             sums.observed += block.decided() - block.unknown;
             left.for_each(|p| sums.add(p));

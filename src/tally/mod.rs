@@ -16,6 +16,8 @@ pub use information::Information;
 
 use crate::cell::{Cell, State};
 use crate::real::Real;
+#[cfg(feature = "std")]
+use crate::rounded::lanes;
 use crate::rounded::mean::Both;
 use core::marker::PhantomData;
 
@@ -101,7 +103,7 @@ impl<T: Real> Tally<T> {
     pub fn from_occupancies(cells: &[T]) -> Self {
         let mut tally = Self::new();
         #[cfg(feature = "std")]
-        let cells = blocks::each(cells, T::sums, |block, left| {
+        let cells = blocks::each(cells, lanes::sums, |block, left| {
             tally.entropy.add_fixed::<T>(block.entropy);
             tally.information.add_fixed::<T>(block.information);
             tally.unknown += block.unknown;

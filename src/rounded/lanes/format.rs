@@ -1,10 +1,6 @@
 //! What the kernel does differently in `f32` and `f64`.
 
-use super::kernel::{BLOCK, Block};
-use super::table::Table;
-use super::{double, single};
 use crate::real::Real;
-use std::sync::LazyLock;
 
 /// The significand bits by which a distance finds its centre: each binade has `2^CELL_BITS` centres.
 pub(super) const CELL_BITS: u32 = 7;
@@ -21,12 +17,6 @@ pub(crate) trait Lane: Real {
     const TERMS: usize;
     /// A bound on the error before rounding, relative to the value that is summed up: see the chapter on rounding.
     const ERROR: Self;
-
-    /// The sums over a block of occupancies, by the widest vector unit at hand.
-    fn sums(cells: &[Self; BLOCK]) -> Block;
-
-    /// Those of information only.
-    fn information(cells: &[Self; BLOCK]) -> Block;
 
     /// The centre of the cell of the table in which `x` in `[2^-BINADES, 1/2]` lies, and the cell's number in its half.
     /// Any pair, the number below [`HALF`], for other `x`.
@@ -61,22 +51,12 @@ pub(crate) trait Lane: Real {
 }
 
 macro_rules! impl_lane {
-    ($float:ident, $word:ident, $signed:ident, $block:ident, $binades:literal, $terms:literal, $slope:literal, $error:literal) => {
+    ($float:ident, $word:ident, $signed:ident, $binades:literal, $terms:literal, $slope:literal, $error:literal) => {
         impl Lane for $float {
             type Word = $word;
             const BINADES: i32 = $binades;
             const TERMS: usize = $terms;
             const ERROR: Self = $error;
-
-            fn sums(cells: &[Self; BLOCK]) -> Block {
-                static TABLE: LazyLock<Table<$float>> = LazyLock::new(|| Table::new(true));
-                $block::sums(&TABLE, cells)
-            }
-
-            fn information(cells: &[Self; BLOCK]) -> Block {
-                static TABLE: LazyLock<Table<$float>> = LazyLock::new(|| Table::new(false));
-                $block::information(&TABLE, cells)
-            }
 
             #[inline(always)]
             fn centre(x: Self) -> (Self, u32) {
@@ -143,5 +123,5 @@ macro_rules! impl_lane {
     };
 }
 
-impl_lane!(f32, u32, i32, single, 10, 3, 12, 6.7e-11); // 2^-33.8
-impl_lane!(f64, u64, i64, double, 16, 6, 24, 5.5e-20); // 2^-64
+impl_lane!(f32, u32, i32, 10, 3, 12, 6.7e-11); // 2^-33.8
+impl_lane!(f64, u64, i64, 16, 6, 24, 5.5e-20); // 2^-64

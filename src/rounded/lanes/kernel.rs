@@ -9,7 +9,7 @@ pub(crate) const BLOCK: usize = 256;
 
 /// What a block of cells adds to a tally, but for those marked open.
 #[derive(Debug)]
-pub struct Block {
+pub(crate) struct Block {
     /// The exact sum of the rounded entropies, and of the rounded information; without entropies the first is 0, and so is the
     /// number of occupied cells.
     pub(crate) entropy: Fixed,

@@ -13,12 +13,29 @@ mod format;
 mod kernel;
 mod table;
 
-pub(crate) use format::Lane;
 pub(crate) use kernel::{BLOCK, Block};
 
+use crate::real::{Floats, Real};
 use multiversion::multiversion;
 use multiversion::target::target_cfg_f;
+use std::sync::LazyLock;
 use table::Table;
+
+/// The sums over a block of occupancies, by the widest vector unit at hand.
+pub(crate) fn sums<T: Real>(cells: &[T; BLOCK]) -> Block {
+    match T::floats(cells) {
+        Floats::Single(cells) => single::sums(cells),
+        Floats::Double(cells) => double::sums(cells),
+    }
+}
+
+/// Those of information only.
+pub(crate) fn information<T: Real>(cells: &[T; BLOCK]) -> Block {
+    match T::floats(cells) {
+        Floats::Single(cells) => single::information(cells),
+        Floats::Double(cells) => double::information(cells),
+    }
+}
 
 /// The kernels for a format, each compiled for several vector units; the widest that the processor has is taken.
 macro_rules! dispatch {
@@ -31,21 +48,29 @@ macro_rules! dispatch {
         }
     };
     ($name:ident, $float:ident, $entropy:literal) => {
-        #[multiversion(targets(
-            "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+bmi2+fma",
-            "x86_64+avx2+bmi2+fma"
-        ))]
-        pub(super) fn $name(table: &Table<$float>, cells: &[$float; BLOCK]) -> Block {
-            if target_cfg_f!(any(target_feature = "fma", target_arch = "aarch64")) {
-                Block::of::<$float, true, $entropy>(table, cells)
-            } else {
-                Block::of::<$float, false, $entropy>(table, cells)
+        pub(super) fn $name(cells: &[$float; BLOCK]) -> Block {
+            /// Made when first needed.
+            static TABLE: LazyLock<Table<$float>> = LazyLock::new(|| Table::new($entropy));
+
+            #[multiversion(targets(
+                "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+bmi2+fma",
+                "x86_64+avx2+bmi2+fma"
+            ))]
+            fn by_target(table: &Table<$float>, cells: &[$float; BLOCK]) -> Block {
+                if target_cfg_f!(any(target_feature = "fma", target_arch = "aarch64")) {
+                    Block::of::<$float, true, $entropy>(table, cells)
+                } else {
+                    Block::of::<$float, false, $entropy>(table, cells)
+                }
             }
+
+            by_target(&TABLE, cells)
         }
     };
 }
 
 dispatch!(single, f32);
 dispatch!(double, f64);
+
 #[cfg(test)]
 mod tests;

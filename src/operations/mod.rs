@@ -1,6 +1,6 @@
 //! The operations that a port of this measure implements: one list, by name, with the exact meaning of each.
 //!
-//! The port protocol, the vectors, the command `meaninfo check` and the page
+//! The port protocol, the vectors, the command `meaninfo check`, the bench `operations` and the page
 //! [`operations`](crate::book::operations) are driven by [`OPERATIONS`]. Arguments are the exact values of the floats,
 //! and the tolerance counts from the exact real result.
 //!

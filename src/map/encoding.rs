@@ -8,6 +8,8 @@ use crate::real::Real;
 use crate::tally::{Information, Tally};
 use core::fmt::Debug;
 use core::marker::PhantomData;
+#[cfg(feature = "std")]
+use std::sync::LazyLock;
 
 /// What a stored cell means. Implement it to measure maps in a format of your own; then [`Encoding::occupancy`] must lie in
 /// `[0, 1]`, and the methods that can be `None` must be so for the same values.
@@ -120,6 +122,20 @@ impl<T: Real> Encoding for LogOdds<T> {
     }
 }
 
+/// The cell of a byte by a function of it, from a table that is made when first needed.
+macro_rules! tabulated {
+    ($byte:ident, $cell:expr) => {{
+        #[cfg(feature = "std")]
+        {
+            static CELLS: LazyLock<[Option<Cell<f64>>; 256]> =
+                LazyLock::new(|| core::array::from_fn(|byte| ($cell)(byte as u8 as i8)));
+            CELLS[usize::from($byte as u8)]
+        }
+        #[cfg(not(feature = "std"))]
+        ($cell)($byte)
+    }};
+}
+
 /// ROS's `nav_msgs/OccupancyGrid`: a percentage 0..=100, or -1 for unknown; 50 is `p = 1/2`, hence unknown too.
 ///
 /// `p` is the `f64` nearest to `percent / 100`.
@@ -147,7 +163,7 @@ impl Encoding for Percent {
     }
 
     fn cell(percent: i8) -> Option<Cell<f64>> {
-        Self::occupancy(percent).and_then(|p| Cell::from_occupancy(p).ok())
+        tabulated!(percent, |percent| Percent::occupancy(percent).and_then(|p| Cell::from_occupancy(p).ok()))
     }
 
     fn occupancy(percent: i8) -> Option<f64> {
@@ -193,7 +209,7 @@ impl Encoding for MrptLogOdds {
     }
 
     fn cell(stored: i8) -> Option<Cell<f64>> {
-        Cell::from_log_odds(log_odds(stored)).ok()
+        tabulated!(stored, |stored| Cell::from_log_odds(log_odds(stored)).ok())
     }
 
     fn occupancy(stored: i8) -> Option<f64> {

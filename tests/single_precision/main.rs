@@ -147,6 +147,30 @@ fn every_occupancy_in_blocks() {
     });
 }
 
+/// Of `f64` not all, but 100 million at random: towards 0, towards 1 and towards 1/2, from each binade as many.
+#[test]
+#[ignore = "half a minute in release mode: proofs/exhaust.sh"]
+fn random_occupancies_in_blocks_of_double_precision() {
+    exhaust("blocks of 256 random occupancies in f64", 400_000, |seen, block| {
+        let mut state = (u64::from(block) + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        let cells = std::iter::repeat_with(|| {
+            state ^= state << 13;
+            state ^= state >> 7;
+            state ^= state << 17;
+            let distance = f64::from_parts(state >> 11, -53 - (block % 20) as i32);
+            match block / 20 % 3 {
+                0 => distance,
+                1 => 1.0 - distance,
+                _ if state & 1 == 1 => 0.5 + distance / 2.0,
+                _ => 0.5 - distance / 2.0,
+            }
+        });
+        let wrong = !blocks::agree_on(&cells.take(256).collect::<Vec<f64>>());
+        seen.results += 2;
+        seen.wrong += u64::from(wrong);
+    });
+}
+
 #[test]
 #[ignore = "some minutes in release mode: proofs/exhaust.sh"]
 fn every_log_odds() {

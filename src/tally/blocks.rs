@@ -3,7 +3,10 @@
 use crate::real::Real;
 use crate::rounded::lanes::{BLOCK, Block};
 
-/// Hands each whole block of the cells to `take`, with the cells that its sums leave open; the cells after the last block.
+/// Fewer cells than these are as quickly done one by one, without the kernels' tables.
+const FEW: usize = 16;
+
+/// Hands the sums of each block of the cells to `take`, with the cells that they leave open; the few cells after the last.
 pub(super) fn each<T: Real>(
     mut cells: &[T],
     sums: fn(&[T; BLOCK]) -> Block,
@@ -11,9 +14,16 @@ pub(super) fn each<T: Real>(
 ) -> &[T] {
     while let Some((block, rest)) = cells.split_first_chunk() {
         let sums = sums(block);
-        let open = sums.closed.iter().zip(block).filter(|(closed, _)| **closed == 0);
-        take(&sums, &mut open.map(|(_, &p)| p));
+        take(&sums, &mut sums.open(block));
         cells = rest;
     }
-    cells
+    if cells.len() < FEW {
+        return cells;
+    }
+    // The last block is filled up with what no kernel counts.
+    let mut last = [T::nan(); BLOCK];
+    last[..cells.len()].copy_from_slice(cells);
+    let sums = sums(&last);
+    take(&sums, &mut sums.open(cells));
+    &[]
 }

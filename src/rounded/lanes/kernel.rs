@@ -66,6 +66,11 @@ impl Block {
         self.closed.iter().map(|&closed| u64::from(closed)).sum()
     }
 
+    /// Those of its cells that are not.
+    pub(crate) fn open<T: Copy>(&self, cells: &[T]) -> impl Iterator<Item = T> {
+        self.closed.iter().zip(cells).filter(|(closed, _)| **closed == 0).map(|(_, &p)| p)
+    }
+
     /// Of the cells of the given occupancies, with their entropies or without.
     ///
     /// With `FUSED`, some products and sums are rounded at once, which only pays where the target has an instruction for it.

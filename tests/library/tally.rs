@@ -22,15 +22,7 @@ fn quotient(numerator: u128, count: u64) -> f64 {
 }
 
 proptest! {
-    #[test]
-    fn mean_information_lies_in_the_unit_interval(map in vec(occupancy(), 0..200)) {
-        let tally = tally(&map);
-        prop_assert!((0.0..=1.0).contains(&tally.mean_information()));
-        prop_assert_eq!(tally.cells(), map.len() as u64);
-        prop_assert_eq!(tally.unknown(), map.iter().filter(|&&p| p == 0.5).count() as u64);
-        prop_assert_eq!(tally.free(), map.iter().filter(|&&p| p < 0.5).count() as u64);
-    }
-
+    #![proptest_config(ProptestConfig::with_cases(32))]
     /// In blocks for a vector unit, one by one at the end; what is no probability counts nowhere.
     #[test]
     fn many_cells_at_once_are_the_single_cells(
@@ -49,6 +41,17 @@ proptest! {
         let one_by_one: Tally<f32> = singles.iter().flat_map(|&p| Cell::from_occupancy(p)).collect();
         prop_assert_eq!(&Tally::from_occupancies(&singles), &one_by_one);
         prop_assert_eq!(Information::from_occupancies(&singles), Information::from(&one_by_one));
+    }
+}
+
+proptest! {
+    #[test]
+    fn mean_information_lies_in_the_unit_interval(map in vec(occupancy(), 0..200)) {
+        let tally = tally(&map);
+        prop_assert!((0.0..=1.0).contains(&tally.mean_information()));
+        prop_assert_eq!(tally.cells(), map.len() as u64);
+        prop_assert_eq!(tally.unknown(), map.iter().filter(|&&p| p == 0.5).count() as u64);
+        prop_assert_eq!(tally.free(), map.iter().filter(|&&p| p < 0.5).count() as u64);
     }
 
     #[test]

@@ -89,6 +89,7 @@ mod tests {
     use super::*;
     use num_bigint::BigInt;
     use proptest::prelude::*;
+    use std::sync::OnceLock;
 
     const PLACES: u32 = 1400;
 
@@ -104,8 +105,9 @@ mod tests {
     }
 
     /// Machin's formula.
-    fn pi() -> BigInt {
-        arctan_of_inverse(5) * 16 - arctan_of_inverse(239) * 4
+    fn pi() -> &'static BigInt {
+        static PI: OnceLock<BigInt> = OnceLock::new();
+        PI.get_or_init(|| arctan_of_inverse(5) * 16 - arctan_of_inverse(239) * 4)
     }
 
     #[test]
@@ -122,7 +124,30 @@ mod tests {
         (cos * cos + sin * sin - (1 << 124)).unsigned_abs() <= 3 << 62
     }
 
+    /// `2^62 cos` or `2^62 sin` of an angle in turns, scale 200: Taylor's series from the power `first`, 0 or 1.
+    fn exact(turns: u128, first: u32) -> BigInt {
+        const SCALE: u32 = 200;
+        let angle: BigInt = (pi() * turns) >> (PLACES + 128 - 1 - SCALE);
+        let mut term = if first == 0 { BigInt::from(1) << SCALE } else { angle.clone() };
+        let mut sum = term.clone();
+        for k in (first + 1..80).step_by(2) {
+            term = (-term * &angle * &angle) >> (2 * SCALE);
+            term /= k * (k + 1);
+            sum += &term;
+        }
+        sum << 62
+    }
+
     proptest! {
+        #[test]
+        fn cosine_and_sine_are_within_0_51_units(turns in any::<u128>()) {
+            for (found, first) in cos_sin(turns).into_iter().zip([0, 1]) {
+                let error: BigInt = (BigInt::from(found) << 200) - exact(turns, first);
+                let hundredths = (error * 100) >> 200;
+                prop_assert!((-51..51).any(|k| hundredths == k.into()), "{hundredths} hundredths of a unit");
+            }
+        }
+
         #[test]
         fn turns_are_the_angle_over_2_pi_modulo_1(x in any::<f64>().prop_filter("finite", |x| x.is_finite())) {
             let (m, e) = x.parts();

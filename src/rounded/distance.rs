@@ -96,9 +96,10 @@ pub(crate) fn distance<T: Real>(step: T, scale: i32, x: Coordinate, y: Coordinat
 /// Whether `m 2^e √(x^2 + y^2)` rounds to the float above the midpoint.
 fn rounds_up(m: u64, e: i32, large: Coordinate, small: Coordinate, midpoint: Midpoint) -> bool {
     let top = large.top();
-    // Everything in units in which the distance is in [1/4, 2), with room for every bit of the squares.
+    // Everything in units in which the distance is in [1/4, 2), with room for every bit of the squares: two limbs or
+    // more, and the midpoint, of 54 bits, has its square in them.
     let unit = top + e + 53;
-    let lowest = (large.lowest().min(small.lowest()) - top - 53).min(midpoint.exponent - unit);
+    let lowest = large.lowest().min(small.lowest()) - top - 53;
     let fraction = (2 * -lowest) as usize / 64 + 1;
     let square = |ball: Ball| ball.times(&ball);
     let distance = square(large.ball(top, fraction))

@@ -33,10 +33,9 @@ impl Cut {
 
 /// For occupancies inside (0, 1).
 pub(crate) fn fused<T: Real>(occupancies: impl Iterator<Item = T> + Clone) -> T {
-    match enclosure(occupancies.clone().filter_map(factors)).map(Enclosure::round) {
-        Ok(Rounded::Decided(p)) => p,
-        Ok(Rounded::Between { .. }) => exactly(occupancies.filter_map(factors)),
-        Err(certain) => certain,
+    match enclosure(occupancies.clone().filter_map(factors)).round() {
+        Rounded::Decided(p) => p,
+        Rounded::Between { .. } => exactly(occupancies.filter_map(factors)),
     }
 }
 
@@ -45,31 +44,32 @@ fn factors<T: Real>(p: T) -> Option<(u64, u32)> {
     odd_parts(p).map(|(m, e)| (m, (-e) as u32))
 }
 
-/// The fused occupancy within a relative `2^-80`, for fewer than `2^40` factors: each cuts below `2^-125`. Or the
-/// float where nothing else is near.
-fn enclosure<T: Real>(factors: impl Iterator<Item = (u64, u32)>) -> Result<Enclosure, T> {
+/// The fused occupancy within a relative `2^-80`, for fewer than `2^40` factors: each cuts below `2^-125`.
+fn enclosure(factors: impl Iterator<Item = (u64, u32)>) -> Enclosure {
     let (a, b) = factors.fold((Cut::ONE, Cut::ONE), |(a, b), (m, n)| {
         let free = if n < 128 { Cut::new((1 << n) - u128::from(m), 0) } else { rest_of_small(m, n) };
         (a.times(Cut::new(m.into(), 0)), b.times(free))
     });
-    let occupied = (a.e, a.m) >= (b.e, b.m);
-    let (large, small) = if occupied { (a, b) } else { (b, a) };
-    let gap = large.e - small.e;
-    if gap > 2000 {
-        return Err(if occupied { T::one() } else { T::zero() });
-    }
-    // x = small / large = ratio 2^(-126 - gap), at most 1, and p or 1 - p is 1 / (1 + x).
-    let ratio = mul_high(small.m, reciprocal(large.m >> 1) << 1);
-    let inverse = reciprocal((1 << 126) + shift_right(ratio, gap as i32));
-    let (value, exponent) =
-        if occupied { (inverse, -126) } else { (mul_high(ratio << 1, inverse << 1), -126 - gap as i32) };
-    Ok(Enclosure::around(value, (value >> 80) + 1, exponent))
+    share(a, b)
 }
 
-/// `2^n - m` for `m < 2^53` and `n >= 128`.
+/// `a / (a + b)`, the cuts of both apart within a relative `2^-118`.
+fn share(a: Cut, b: Cut) -> Enclosure {
+    let occupied = (a.e, a.m) >= (b.e, b.m);
+    let (large, small) = if occupied { (a, b) } else { (b, a) };
+    // From 2000 on the nearest float is 0 or 1.
+    let gap = (large.e - small.e).min(2000) as i32;
+    // x = small / large = ratio 2^(-126 - gap), at most 1, and p or 1 - p is 1 / (1 + x).
+    let ratio = mul_high(small.m, reciprocal(large.m >> 1) << 1);
+    let inverse = reciprocal((1 << 126) + shift_right(ratio, gap));
+    let (value, exponent) =
+        if occupied { (inverse, -126) } else { (mul_high(ratio << 1, inverse << 1), -126 - gap) };
+    Enclosure::around(value, value >> 80, exponent)
+}
+
+/// `2^n - m` for `m < 2^53` and `n >= 128`, cut by at most a unit of the last place.
 fn rest_of_small(m: u64, n: u32) -> Cut {
-    let part = shift_right(u128::from(m), n as i32 - 128) + 1;
-    Cut { m: u128::MAX - part + 1, e: i64::from(n) - 128 }
+    Cut { m: u128::MAX - shift_right(u128::from(m), n as i32 - 128), e: i64::from(n) - 128 }
 }
 
 fn exactly<T: Real>(factors: impl Iterator<Item = (u64, u32)>) -> T {
@@ -103,12 +103,31 @@ mod tests {
     fn what_128_bits_do_not_tell_is_told_exactly() {
         let (a, b) = ((1 << 27) + 1, (1 << 26) + 1);
         let p = [f64::from_parts(a, -400), f64::from_parts(b, -400)];
-        let found = enclosure::<f64>(p.into_iter().filter_map(factors)).map(Enclosure::round::<f64>);
-        assert!(matches!(found, Ok(Rounded::Between { .. })));
+        let found = enclosure(p.into_iter().filter_map(factors)).round::<f64>();
+        assert!(matches!(found, Rounded::Between { .. }));
         assert_eq!(fused(p.into_iter()), f64::from_parts(a * b / 2 + 1, -799));
     }
 
+    /// Nor does an exponent wrap.
+    #[test]
+    fn what_lies_beyond_all_floats_is_certain() {
+        let far = |e| Cut { m: 1 << 127, e };
+        for gap in [1999, 2000, 2001, 1 << 31, 1 << 32, 1 << 40] {
+            assert!(matches!(share(far(gap), far(0)).round(), Rounded::Decided(1.0_f64)));
+            assert!(matches!(share(far(0), far(gap)).round(), Rounded::Decided(0.0_f64)));
+        }
+    }
+
     proptest! {
+        #[test]
+        fn the_rest_of_a_small_factor_is_cut_by_a_unit(m in 1_u64..1 << 53, n in 128_u32..200) {
+            let rest = rest_of_small(m, n);
+            // (2^n - m) 2^(128 - n) is below 2^128: what is missing, in units of the last place.
+            let missing = (rest.m.wrapping_neg() as f64) - m as f64 / f64::from_parts(1, n as i32 - 128);
+            prop_assert!((0.0..=1.0).contains(&missing));
+            prop_assert_eq!(rest.e, i64::from(n) - 128);
+        }
+
         /// Two ways: 128 bits, and exactly.
         #[test]
         fn the_enclosure_holds_the_exact_result(p in vec(inside(), 0..12)) {

@@ -138,22 +138,63 @@ mod tests {
         .prop_filter("inside", |&p| p > 0.0 && p < 1.0 && p != 0.5)
     }
 
+    const FRACTION: usize = 4;
+
+    /// `|l| = -ln q + ln (1 - q)` for `p = m 2^-n`, in many bits.
+    fn many_bits(m: u64, n: i32) -> Ball {
+        let (m, n) = minor(m, n);
+        let q = Ball::dyadic(m, -n, FRACTION);
+        // q = (1 - y) 2^(53 - n)
+        let y = Ball::dyadic((1 << 53) - m, -53, FRACTION);
+        let minus_ln_q = Ball::ln2(FRACTION).scaled((n - 53) as u64, 0).plus(&y.times(&y.log_series()));
+        minus_ln_q.minus(&q.times(&q.log_series()))
+    }
+
+    /// By about `2^-20` of half a spacing next to a midpoint, on either side: the comparison decides. The results are
+    /// Arb's.
+    #[test]
+    fn log_odds_beside_a_midpoint() {
+        for (m, expected) in [
+            (0x10_0000_2645_eff9, f64::from_parts(0x13_22f7_fc80_0025, -74)),
+            (0x10_0003_a266_1c25, f64::from_parts(0x1d_1330_e128_8004, -70)),
+            (0x10_006c_d39a_529b, f64::from_parts(0x1b_34e6_964a_4cc8, -65)),
+            (0x10_0640_1a49_0fb5, f64::from_parts(0x19_006a_69d4_5281, -61)),
+        ] {
+            let p = f64::from_parts(m, -53);
+            let Magnitude { value, error, exponent } = magnitude(m, 53);
+            let rounded = Enclosure::around(value, error, exponent).round::<f64>();
+            assert!(matches!(rounded, super::super::Rounded::Between { .. }), "{p:e}");
+            assert_eq!(log_odds_from_occupancy(p), expected);
+            assert_eq!(log_odds_from_occupancy(1.0 - p), -expected);
+        }
+    }
+
+    #[test]
+    fn the_ends_of_the_fixed_point() {
+        assert_eq!(round_log_odds::<f64>(0).to_bits(), 0);
+        for far in [1 << (LOG_ODDS_SCALE + 10), fixed_log_odds(1.0_f64), i128::MAX] {
+            assert_eq!([-far, far].map(occupancy_from_fixed_log_odds::<f64>), [0.0, 1.0]);
+        }
+        let near = (1 << (LOG_ODDS_SCALE + 10)) - 1;
+        assert_eq!([-near, near].map(occupancy_from_fixed_log_odds::<f64>), [0.0, 1.0]);
+    }
+
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(1000))]
 
-        /// Both ends of the enclosure, compared in many bits: the value lies between them.
+        /// The value lies in the enclosure, which is as narrow as the others of step 1.
         #[test]
         fn the_enclosure_holds_the_log_odds(p in occupancy()) {
             let (m, e) = normalised(p);
             let Magnitude { value, error, exponent } = magnitude(m, -e);
-            let end = |x: u128, up: u64| {
-                let shift = 64 - x.leading_zeros() as i32;
-                Midpoint { m: (x >> shift) as u64 + up, exponent: exponent + shift }
+            let end = |x: u128| {
+                let part = |x: u128, e| Ball::dyadic(x as u64, e, FRACTION);
+                part(x >> 64, exponent + 64).plus(&part(x & u128::from(u64::MAX), exponent))
             };
-            // Cut to 64 bits, outwards: still within 2^-62 of the value.
-            prop_assert!(is_above(m, -e, end(value - error, 0)), "{:e}", p);
-            prop_assert!(!is_above(m, -e, end(value + error, 1)), "{:e}", p);
-            prop_assert!(value >> 60 >= error);
+            let exact = many_bits(m, -e);
+            prop_assert_eq!(exact.is_above(&end(value - error)), Some(true), "{:e}", p);
+            prop_assert_eq!(end(value + error).is_above(&exact), Some(true), "{:e}", p);
+            prop_assert!(value >> 66 >= error);
         }
 
         /// The two forms agree, as far as the units of the fixed point go.

@@ -4,6 +4,7 @@
 use super::fixed::scale_117;
 use super::wide::{SCALE, Wide};
 use super::*;
+use core::cell::Cell;
 use num_bigint::BigInt;
 use std::vec::Vec;
 
@@ -188,7 +189,21 @@ fn the_comparison_of_exponential_and_logarithm_agrees_with_both_steps() {
         assert_parted(-ln(x), x, |midpoint| exact::ln(m, e, true, midpoint));
         let (m, e) = normalised(above_one(x));
         assert_parted(ln(above_one(x)), above_one(x), |midpoint| exact::ln(m, e, false, midpoint));
+        // Up to 2^400.
+        let (m, e) = normalised(1.0 / x);
+        assert_parted(ln(1.0 / x), 1.0 / x, |midpoint| exact::ln(m, e, false, midpoint));
     }
+}
+
+/// No argument is known that takes more than 256 bits of fraction: there may be one.
+#[test]
+fn a_comparison_takes_as_many_bits_as_it_needs() {
+    let last = Cell::new(0);
+    let above = exact::decide(|fraction| {
+        assert!(fraction > last.replace(fraction), "no more bits than before");
+        (fraction > 100).then_some(true)
+    });
+    assert!(above);
 }
 
 /// Distances of either sign, of numbers a few and of many bits apart, from 1/64 to 35 standard deviations.

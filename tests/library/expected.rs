@@ -268,6 +268,14 @@ fn weights_are_checked() {
     assert_eq!(hypotheses.expected_map().unwrap().grid().cells(), [0.75]);
 }
 
+/// Not `-0`, in whatever order the values cancel.
+#[test]
+fn what_cancels_is_zero() {
+    for values in [[3.0_f64, -1.0], [-3.0, 1.0], [0.0, 0.0], [-0.0, -0.0]] {
+        assert_eq!(weighted_mean(&[2.0, 6.0], &values).unwrap().to_bits(), 0);
+    }
+}
+
 #[test]
 fn certainties_in_the_log_linear_pool() {
     let one =

@@ -103,6 +103,21 @@ proptest! {
     }
 }
 
+/// Solutions of `k^2 - N m^2 = d` (Pell, Brahmagupta): `m √N` is `d / (2 k)` beside the midpoint `k`, of 54 bits, by `2^-105`
+/// of it, and on the side to which a tie would not go.
+#[test]
+fn the_nearest_that_is_no_tie() {
+    for (m, x, y, k, d) in [
+        (1196605283526901_u64, 9, 1, 10835721700666209_i128, -1),
+        (3148310371686478, 5, 2, 16954170215542571, 5),
+        (2870059236275285, 5, 3, 16735177342077629, -9),
+    ] {
+        assert_eq!(k * k - i128::from(x * x + y * y) * i128::from(m).pow(2), d);
+        let result = check(m as f64, -3, [x, y], [0.0; 2]);
+        assert_eq!(result * 8.0, (k - d.signum()) as f64);
+    }
+}
+
 #[test]
 fn no_distance_is_no_distance() {
     for step in [1e-300, 0.05, 1e300] {

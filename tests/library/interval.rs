@@ -206,6 +206,9 @@ fn the_edges_of_the_domains() {
         // Nothing comes of nothing.
         assert!((empty + point(2.0)).is_empty() && (point(0.0) * empty).is_empty() && empty.exp().is_empty());
         assert!((empty / point(2.0)).is_empty() && empty.entropy_from_log_odds().is_empty());
+        let whole = Interval::WHOLE;
+        assert!((empty + whole).is_empty() && (whole + empty).is_empty() && (whole * empty).is_empty());
+        assert!((empty / whole).is_empty() && (whole / empty).is_empty());
         assert!(!empty.contains(0.0) && !empty.is_bounded());
     }
     assert_eq!(between(0.25, 1.5).entropy(), between(0.0, 1.0));
@@ -216,6 +219,8 @@ fn the_edges_of_the_domains() {
 #[test]
 fn without_bounds() {
     let whole = Interval::<f64>::WHOLE;
+    let (below, above) = (between(f64::NEG_INFINITY, 2.5), between(2.5, f64::INFINITY));
+    assert_eq!([whole, below, above, point(2.5)].map(|x| x.is_bounded()), [false, false, false, true]);
     assert_eq!(point(1.0) / between(-1.0, 2.0), whole);
     assert_eq!(point(1.0) / between(0.0, 2.0), between(0.5, f64::INFINITY));
     assert_eq!(point(1.0) / between(-2.0, 0.0), between(f64::NEG_INFINITY, -0.5));

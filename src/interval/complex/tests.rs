@@ -196,3 +196,57 @@ fn log_odds_are_analytic_between_the_poles_and_beside_them() {
     assert!(bound(0.0, 3.125).is_infinite() && bound(0.0, 9.375).is_infinite());
     assert!(bound(0.0, 1.0) < 4.0 && bound(3.0, 9.375) < 4.0 && bound(-3.0, 3.125) < 4.0);
 }
+
+/// With 0 at a corner or on a side, also where 0 times it, or its root, would have bounds.
+#[test]
+fn nothing_is_analytic_that_touches_a_cut_or_a_pole() {
+    let [side, corner] =
+        [-1.0, 0.0].map(|lower| Complex::new(Interval::between(0.0, 1.0), Interval::between(lower, 1.0)));
+    for rectangle in [side, corner] {
+        assert!(rectangle.sqrt().bound().is_infinite());
+        assert!((Complex::constant(0.0) / rectangle).bound().is_infinite());
+    }
+}
+
+/// Only `1 - e^z` is computed as such.
+#[test]
+fn a_difference_from_another_number_is_not_small() {
+    let power = Complex::new(Interval::point(1e-9), Interval::point(1e-9)).exp();
+    for minuend in [Complex::constant(3.0), Complex::new(ONE, Interval::point(2.0))] {
+        assert!((minuend - power).bound() > 1.9);
+    }
+}
+
+#[test]
+fn a_real_divisor_divides_the_parts() {
+    let (x, y, d) = (Real::point(0.1), Real::point(0.7), Real::point(0.3));
+    let quotient = Complex::new(x, y) / Complex::new(d, ZERO);
+    assert_eq!((quotient.re, quotient.im), (x / d, y / d));
+}
+
+/// On either side of it, however small; tiny numbers stay tiny.
+#[test]
+fn about_a_number() {
+    for v in [f64::from_bits(1), 1e-310, 1e-291, 1e-290, 1e-289, 0.7, 1e300] {
+        let (lower, upper) = about(v);
+        assert!(0.0 <= lower && lower < v && v < upper, "{v:e}");
+        assert!(upper <= (v * 1.000_000_1).max(2.1e-290), "{v:e}");
+    }
+    assert_eq!(about(0.0), (0.0, 0.0));
+}
+
+/// Two convergents in a row are apart by the product of their partial numerators, `x^9 (1 2 3 4)^2`, over that of their
+/// denominators.
+#[test]
+fn the_convergents_are_those_of_the_arc_tangent() {
+    for k in 1..=64 {
+        let x = f64::from(k) / 64.0;
+        let s = x * x;
+        let (lower, upper) = convergents(x);
+        let arctangent = core_math::atan(x);
+        assert!(lower <= arctangent && arctangent <= upper, "{x}");
+        let denominators = (105.0 + s * (90.0 + s * 9.0)) * (945.0 + s * (1050.0 + s * 225.0));
+        let apart = s * s * s * s * x * 576.0 / denominators;
+        assert!((upper - lower - apart).abs() <= x / f64::from(1 << 30), "{x}");
+    }
+}

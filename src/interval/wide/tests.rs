@@ -226,3 +226,56 @@ fn the_ends_of_the_exponential() {
     assert_eq!(Wide::ZERO.exp(), Interval::point(Wide::ONE));
     assert_eq!(Wide::ONE.ln(), Interval::point(Wide::ZERO));
 }
+
+#[test]
+fn the_largest_significand_is_rounded_up_to_the_next_power_of_two() {
+    let ends = both(|toward| Wide::rounded(false, u128::MAX, -5, true, toward));
+    assert_eq!(ends, (positive(u128::MAX, -5), positive(1, 123)));
+}
+
+#[test]
+fn both_ends_of_the_exponents() {
+    let ends = |m, e| both(|toward| Wide::rounded(false, m, e, false, toward));
+    let number = |m, e| Wide { negative: false, m, e };
+    for e in [LARGEST_EXPONENT, -LARGEST_EXPONENT] {
+        assert_eq!(ends(TOP, e), (number(TOP, e), number(TOP, e)));
+    }
+    let (largest, smallest) = (number(u128::MAX, LARGEST_EXPONENT), number(TOP, -LARGEST_EXPONENT));
+    assert_eq!(ends(TOP, LARGEST_EXPONENT + 1), (largest, Wide::INFINITY));
+    assert_eq!(ends(TOP, -LARGEST_EXPONENT - 1), (Wide::ZERO, smallest));
+    let of_negative = both(|toward| Wide::rounded(true, TOP, -LARGEST_EXPONENT - 1, false, toward));
+    assert_eq!(of_negative, (-smallest, Wide::ZERO));
+}
+
+#[test]
+fn infinite_ends() {
+    let (three, infinity) = (positive(3, 0), Wide::INFINITY);
+    for toward in [Down, Up] {
+        assert_eq!([three.mul(infinity, toward), infinity.mul(three, toward)], [infinity; 2]);
+        assert_eq!((-three).mul(infinity, toward), -infinity);
+        assert_eq!(infinity.mul(Wide::ZERO, toward), Wide::ZERO);
+        assert_eq!([three.div(infinity, toward), infinity.div(three, toward)], [Wide::ZERO, infinity]);
+        assert_eq!(infinity.div(infinity, toward), infinity);
+    }
+    for end in [Wide::ZERO, infinity] {
+        assert_eq!(end.sqrt(), Interval::point(end));
+    }
+}
+
+/// The lower half of a product decides whether it is exact: of `(2^127 + 1)^2` it is 1, of `2^127 (2^127 + 1)` its top bit.
+#[test]
+fn a_product_is_exact_or_not_by_one_bit() {
+    let next = positive(TOP + 1, -127);
+    let (lower, upper) = both(|toward| next.mul(next, toward));
+    assert!(lower < upper);
+    assert_eq!(both(|toward| Wide::ONE.mul(next, toward)), (next, next));
+}
+
+/// Minuends and subtrahends whose difference is half a unit below a power of two.
+#[test]
+fn a_difference_just_below_a_power_of_two() {
+    let (large, small) = (positive(3 << 126, 1), positive(TOP + 1, 0));
+    let (lower, upper) = both(|toward| large.add(-small, toward));
+    let exact = integer(large) - integer(small);
+    assert!(integer(lower) <= exact && exact <= integer(upper));
+}

@@ -137,6 +137,68 @@ fn an_evaluation_limit_below_one_rule_for_every_panel_is_refused() {
     assert!((stopped.value - known).abs() <= stopped.error && stopped.error > 1e-14);
 }
 
+/// Seven panels: four about the obstacle, two and the tail towards the sensor.
+#[test]
+fn every_panel_is_evaluated_once_at_least() {
+    let sensor = GaussianSensor::new(3.0_f64, 0.125).unwrap();
+    let few = |limit| adaptive(&sensor, Weight::Area, &GaussKronrod::new().limit(limit));
+    let least = 7 * Rule::K21.evaluations();
+    let Err(Error::OutOfRange { what, allowed, .. }) = few(least - 1) else { panic!("{:?}", few(least - 1)) };
+    assert_eq!((what, allowed), ("evaluation limit", "at least one rule for every panel of the model"));
+    assert!(few(least).unwrap().evaluations <= least);
+}
+
+/// What is known to matter less than the tolerance of the deficit is left at that.
+#[test]
+fn a_tolerance_above_the_deficit_needs_no_integration() {
+    let sensor = GaussianSensor::new(3.0_f64, 3e-6).unwrap();
+    for weight in WEIGHTS {
+        let limit = adaptive(&sensor, weight, &GaussKronrod::new().absolute(1e-3)).unwrap();
+        assert!(limit.evaluations <= 3 && limit.error < 1e-3, "{limit:?}");
+        assert!((limit.value - closed_form(&sensor, weight)).abs() <= limit.error);
+    }
+}
+
+#[test]
+fn a_ratio_beyond_the_type_is_refused() {
+    for (range, sigma) in [(1e308_f64, 1e-3), (1e306, 1.0), (f64::MAX, 1.0)] {
+        let sensor = GaussianSensor::new(range, sigma).unwrap();
+        let refused = rigorous(&sensor, Weight::Area, &Rigorous::default()).unwrap_err();
+        assert!(refused.to_string().starts_with("range over sigma is"), "{refused}");
+        assert!(adaptive(&sensor, Weight::Radial, &GaussKronrod::new()).is_err());
+    }
+    // Finite, with its thousandfold, in f64 but not in f32.
+    let [single, double] =
+        [GaussianSensor::new(1e36_f32, 1.0).is_ok(), GaussianSensor::new(1e36_f64, 1.0).is_ok()];
+    assert!(single && double);
+    let single = GaussianSensor::new(1e36_f32, 1.0).unwrap();
+    assert!(rigorous(&single, Weight::Radial, &Rigorous::default()).is_err());
+}
+
+/// The status of the first piece that ends otherwise is that of the whole.
+#[test]
+fn a_limit_on_evaluations_shows_in_the_status() {
+    let sensor = GaussianSensor::new(3.0_f64, 0.125).unwrap();
+    let few = rigorous(&sensor, Weight::Radial, &Rigorous::default().with_limit(100).unwrap()).unwrap();
+    assert_eq!(few.status, Status::EvaluationLimit);
+    assert!(few.contains(closed_form(&sensor, Weight::Radial)));
+}
+
+/// `n (1 - MI)` tends to a constant: the bumps narrow like `1 / n`, and the panels with them.
+#[test]
+fn a_million_scans() {
+    let sensor = GaussianSensor::new(3.0_f64, 0.125).unwrap();
+    let scaled = |scans: u32| {
+        let model = RepeatedScans::new(sensor, scans).unwrap();
+        assert_eq!(model.scans(), scans);
+        let limit = adaptive(&model, Weight::Radial, &GaussKronrod::new().relative(1e-10)).unwrap();
+        assert!(limit.status == Status::Converged && limit.evaluations < 6000, "{limit:?}");
+        f64::from(scans) * (1.0 - limit.value)
+    };
+    let [coarse, fine] = [1 << 16, 1 << 20].map(scaled);
+    assert!((coarse / fine - 1.0).abs() < 1e-3, "{coarse} {fine}");
+}
+
 /// Steps have a limit that can be written down.
 #[test]
 fn steps_have_the_mean_of_their_two_levels() {

@@ -3,6 +3,8 @@
 use super::*;
 use crate::elementary::{exp, ln, sqrt};
 use proptest::prelude::*;
+use std::format;
+use std::vec::Vec;
 
 /// The points of the unit lattice, moved by `x` and `y`, whose distance from the origin is in the range.
 fn points(x: f64, y: f64, distances: core::ops::RangeInclusive<f64>) -> f64 {
@@ -78,4 +80,160 @@ fn powers_are_rounded_up() {
     }
     assert!(Up(8.0).two_thirds_power().0 >= 4.0 && Up(27.0).two_thirds_power().0 >= 9.0);
     assert!(Up(0.1).0 + 0.2 < (Up(0.1) + Up(0.2)).0 && (Up(1.0) / 3.0).0 > 1.0 / 3.0);
+}
+
+/// Sensors on either side of `z = σ √(ln 4)`, and cells of which the room is from one to some millions wide.
+fn rooms<T: Real>() -> Vec<(GaussianSensor<T>, T)> {
+    let sensor = |alpha| GaussianSensor::new(T::nearest(3.0 * alpha), T::nearest(3.0)).expect("positive");
+    let cells = [1.7, 4.9, 5.0, 12.3, 217.0, 1e4, 3e6];
+    let rooms = [0.4, 1.1, 1.3, 9.0, 3e3]
+        .map(|alpha| cells.map(|x| (sensor(alpha), T::nearest(3.0 * (alpha + B[0]) / x))));
+    rooms.concat()
+}
+
+/// The chapter's formulas in plain floating point, with the terms of rounding: `unit = 2^-P`.
+struct Plain {
+    x: f64,
+    sigma: f64,
+    variation: f64,
+    limit: f64,
+    shift: f64,
+    rounding: f64,
+}
+
+impl Plain {
+    fn new<T: Real>(sensor: &GaussianSensor<T>, h: T, weight: Weight) -> Self {
+        let (z, sigma, unit) = (sensor.range().widen(), sensor.sigma().widen(), T::epsilon().widen() / 2.0);
+        let x = (z + sigma * B[0]) / h.widen();
+        let free = information(sensor.occupancy(T::zero())).widen();
+        let rounding = f64::from(T::PRECISION + 5) / 2.0 * unit;
+        let variation = 2.0 + if z > sigma * B[0] { free } else { -free } + rounding;
+        let limit = closed_form(sensor, weight).widen() * (1.0 + 2.0 * unit);
+        Self {
+            x,
+            sigma: sigma / h.widen(),
+            variation,
+            limit: limit.min(1.0),
+            shift: 2.0 * unit * x,
+            rounding,
+        }
+    }
+
+    /// `[miscount, information]`: half a cell, and the terms of first and of second order.
+    fn beam(&self) -> [f64; 2] {
+        let miscount = 0.5 + self.shift;
+        let cells = self.x + miscount;
+        let second = BEND.0 / (8.0 * self.sigma) + STEEPEST.0 * self.shift / self.sigma * cells;
+        [miscount, (self.variation * miscount).min(second) + self.rounding * cells]
+    }
+
+    fn points(x: f64) -> f64 {
+        let by_columns = 2.0 * x + 1.72 * sqrt(x) + 1.0;
+        if x < 5.0 { by_columns } else { by_columns.min(7.14 * exp(ln(x) * 2.0 / 3.0) + 0.5) }
+    }
+
+    fn disc(&self) -> [f64; 2] {
+        let miscount = Self::points(self.x + self.shift) + 7.0 * self.x * self.shift;
+        let cells = PI[0] * self.x * self.x + miscount;
+        let root = sqrt(self.x);
+        let second =
+            0.8403 * ((BEND.0 + STEEPEST.0) * root / self.sigma + 2.0 * self.variation * root / self.x);
+        let second = second + STEEPEST.0 * self.shift / self.sigma * cells;
+        [miscount, (self.variation * miscount).min(second) + self.rounding * cells]
+    }
+}
+
+/// At least the number, and hardly more.
+fn assert_just_above(bound: f64, number: f64, what: &str) {
+    assert!(bound >= number * (1.0 - 1e-12) && bound <= number * (1.0 + 1e-9), "{what}: {bound} {number}");
+}
+
+fn assert_formulas<T: Real>() {
+    for (sensor, h) in rooms::<T>() {
+        for weight in [Weight::Radial, Weight::Area] {
+            let room = Room::new(&sensor, h, weight).expect("positive");
+            let plain = Plain::new(&sensor, h, weight);
+            let what = &format!("{sensor:?} {h}");
+            let (observed, size, [miscount, information]) = match weight {
+                Weight::Radial => (room.beam(), plain.x, plain.beam()),
+                Weight::Area => (room.disc(), PI[0] * plain.x * plain.x, plain.disc()),
+            };
+            assert_just_above(observed.miscount.0, miscount, what);
+            assert_just_above(observed.information.0, information, what);
+            assert_just_above(room.limit.0, plain.limit, what);
+            let [below, above] = observed.size;
+            assert!(below <= size && size <= above && above <= below * (1.0 + 1e-14), "{what}");
+            // Before counting: as many cells more or fewer, and 7 that are unknown.
+            let missing = miscount + 7.0;
+            let bound: f64 = observed.before_counting(room.limit, Up(7.0));
+            if size > 1.001 * missing {
+                let expected = (information + plain.limit * missing) / (size - missing);
+                assert_just_above(bound, expected.min(1.0), what);
+            } else {
+                assert!(bound > 0.9, "{what}");
+            }
+            // After: more than by size, and fewer.
+            for count in [(1.1 * size) as u64 + 1, (0.9 * size) as u64 + 1] {
+                let expected = (information + plain.limit * (count as f64 - size).abs()) / count as f64;
+                let bound: f64 = observed.with_count(room.limit, count);
+                assert!(
+                    bound >= expected.min(1.0) * (1.0 - 1e-12) && bound <= expected * (1.0 + 1e-6),
+                    "{what}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn the_bounds_are_the_formulas_of_the_chapter() {
+    assert_formulas::<f64>();
+    assert_formulas::<f32>();
+}
+
+/// Both ends, rounded outwards by `wide`; and as many centres of rings between them as are counted, or one more at either end.
+#[test]
+fn the_circle_at_one_half() {
+    for (sensor, h) in rooms::<f32>() {
+        let room = Room::new(&sensor, h, Weight::Area).expect("positive");
+        let wide = room.shift().0;
+        let circle = (sensor.range().widen() - sensor.sigma().widen() * B[0]) / h.widen();
+        let [near, far] = room.ring();
+        // The difference above rounds.
+        let slack = 1e-15 * room.radius().0;
+        assert!(
+            near <= circle - wide + slack && near >= circle - wide - 4.0 * slack,
+            "{near} {circle} {wide}"
+        );
+        assert!(far >= circle + wide - slack && far <= circle + wide + 4.0 * slack, "{far} {circle} {wide}");
+        let first = (near as i64 - 2).max(0);
+        let last = far.max(0.0) as i64;
+        let held = (first..=last).map(|k| k as f64 + 0.5).filter(|x| (near..=far).contains(x)).count();
+        let counted = room.rings_at_one_half().0;
+        assert!(held as f64 <= counted && counted <= held as f64 + 2.01, "{held} {counted}");
+        let cells = room.cells_at_one_half(Up(123.0)).0;
+        let x = room.radius().0;
+        if far < 0.0 {
+            assert_eq!(cells, 0.0);
+        } else if x < 90.0 {
+            assert_just_above(cells, 6.31 * exp(ln(far) * 2.0 / 3.0) + 2.0, "points of a circle");
+        } else {
+            assert_just_above(cells, 246.0 + 14.0 * x * wide, "points of a ring");
+        }
+    }
+}
+
+/// The nearest `f32` from above; 1 at most.
+#[test]
+fn a_bound_is_rounded_up_to_its_format() {
+    let bound = |information: f64| {
+        let observed = Observed { size: [1.0; 2], miscount: Up(0.0), information: Up(information) };
+        observed.bound::<f32>(Up(0.0), Up(0.0), 1.0)
+    };
+    for k in 1..100 {
+        let information = f64::from(k) / 101.0;
+        let found = bound(information);
+        assert!(found.widen() > information && found.next_down().widen() <= information, "{information}");
+    }
+    assert_eq!([bound(0.25 - 1e-12), bound(1.5), bound(f64::NAN)], [0.25, 1.0, 1.0]);
 }

@@ -55,3 +55,12 @@ fn the_limits_of_the_room_within_two_ulps() {
         }
     }
 }
+
+#[test]
+fn the_magnitude_of_an_integral_whose_sign_is_open() {
+    let interval = |lower, upper| Interval::<Wide>::constant(lower).hull(Interval::constant(upper));
+    for (ends, magnitude) in [((-3.0, 2.0), (0.0, 3.0)), ((-3.0, -2.0), (2.0, 3.0)), ((2.0, 3.0), (2.0, 3.0))]
+    {
+        assert_eq!(super::magnitude(interval(ends.0, ends.1)), interval(magnitude.0, magnitude.1));
+    }
+}

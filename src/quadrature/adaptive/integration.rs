@@ -142,7 +142,7 @@ const ALIKE: u64 = 8;
 /// one. If it is of the same size in both, and was so when the whole was a half, and is in the lower half of the
 /// digits of the integral (whose last ones are `fixed`), then the integrand is less smooth than its floats: it is
 /// noise, which no halving reduces.
-fn compared<T: Real>(whole: &Panel<T>, halves: [Panel<T>; 2], fixed: T) -> [Panel<T>; 2] {
+pub(super) fn compared<T: Real>(whole: &Panel<T>, halves: [Panel<T>; 2], fixed: T) -> [Panel<T>; 2] {
     let times = T::from_parts(ALIKE, 0);
     let alike = halves.iter().all(|half| times * half.difference > whole.difference);
     let half_the_digits = T::from_parts(1, T::PRECISION as i32 / 2);

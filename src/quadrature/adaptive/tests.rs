@@ -1,6 +1,8 @@
 //! The tables against the equations that define the rules, in integers; what one application of a rule tells.
 
 use super::compensated::Compensated;
+use super::integration::compared;
+use super::panels::Panel;
 use super::rule::Rule;
 use super::stretch::Stretch;
 use crate::real::Real;
@@ -161,7 +163,7 @@ fn the_noise_covers_rounding_and_vanishes_with_the_integrand() {
         assert!((reading.value - 0.1 * width).abs() <= reading.noise);
         assert!(reading.noise <= 6.0 * f64::EPSILON * 0.1 * width);
         let nothing = rule.apply(&mut |_| 0.0_f64, STRETCH);
-        assert_eq!([nothing.value, nothing.difference, nothing.noise], [0.0; 3]);
+        assert_eq!([nothing.value, nothing.difference, nothing.noise, nothing.decay], [0.0; 4]);
         // 8 per step of the argument: the last digit of an argument near 1e5 is worth `8 * 2^-36`.
         let slope = rule.apply(&mut |x: f64| 8.0 * (x - 1e5), Stretch { lower: 1e5, upper: 1e5 + 1.0 });
         assert!((slope.value - 4.0).abs() <= slope.noise && slope.noise >= 8.0 * 1e5 * f64::EPSILON);
@@ -206,4 +208,36 @@ fn sums_keep_what_they_lose() {
     let (left, right) = (sum(&[large, small]), sum(&[small, -large, small]));
     assert_eq!(left.merged(right).value(), 2.25);
     assert_eq!(right.merged(Compensated::new(large)).value(), 1.5);
+}
+
+/// Halves that err as much as the whole, twice in a row, and by less than `2^26` times the noise: nothing is to be gained.
+#[test]
+fn what_no_halving_reduces_is_noise() {
+    let panel = |difference: f64, alike| Panel {
+        stretch: STRETCH,
+        value: 2.0,
+        difference,
+        ratio: 0.5,
+        alike,
+        reducible: 3.0,
+        fixed: 0.125,
+    };
+    let noise = 1.0 / f64::from(1 << 20);
+    // The difference of the halves, that of the whole being 1; was it alike; the noise; alike now, and settled.
+    for (halves, before, noise, alike, settled) in [
+        ([0.5, 0.25], true, noise, true, true),
+        ([0.5, 0.25], false, noise, true, false),
+        ([0.5, 0.25], true, noise / 128.0, true, false),
+        ([0.5, 0.1], true, noise, false, false),
+        ([0.1, 0.5], true, noise, false, false),
+    ] {
+        let found = compared(&panel(1.0, before), halves.map(|d| panel(d, false)), noise);
+        for (half, difference) in found.iter().zip(halves) {
+            if settled {
+                assert_eq!([half.reducible, half.fixed], [0.0, 0.125 + 8.0 * difference]);
+            } else {
+                assert_eq!((half.alike, half.reducible, half.fixed), (alike, 3.0, 0.125));
+            }
+        }
+    }
 }

@@ -131,6 +131,6 @@ pub(super) fn integrate(
 }
 
 /// A number of which `value` is the floor, scale 127.
-fn floored(value: u128) -> Interval<Wide> {
+pub(super) fn floored(value: u128) -> Interval<Wide> {
     Interval::between(Wide::from_integer(value, -127), Wide::from_integer(value + 1, -127))
 }

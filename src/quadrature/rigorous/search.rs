@@ -78,7 +78,7 @@ impl<F: Integrand> Search<'_, F> {
     }
 
     /// About the magnitude of the integral: a tolerance to begin with.
-    fn estimate(&mut self) -> f64 {
+    pub(super) fn estimate(&mut self) -> f64 {
         let (centre, radius) = (0.5 * self.from + 0.5 * self.to, 0.5 * self.to - 0.5 * self.from);
         let mut sum = 0.0;
         for (node, weight) in gauss::floats() {

@@ -85,3 +85,73 @@ fn the_remainder_is_within_its_bound() {
         assert!(width <= 2.0 * allowed);
     }
 }
+
+/// A cube, which has no integral between opposite ends.
+struct Cube;
+impl Integrand for Cube {
+    fn evaluate<S: Scalar>(&self, x: S) -> S {
+        x.clone() * x.clone() * x
+    }
+}
+
+/// `1 / √|x - at|`, unbounded in the middle of things.
+struct Peak {
+    at: f64,
+}
+impl Integrand for Peak {
+    fn evaluate<S: Scalar>(&self, x: S) -> S {
+        let d = x - S::constant(self.at);
+        S::constant(1.0) / (d.clone() * d).sqrt().sqrt()
+    }
+}
+
+#[test]
+fn the_estimate_is_about_the_magnitude() {
+    fn estimate(f: &impl Integrand, from: f64, to: f64) -> f64 {
+        Search { f, from, to, evaluations: 0, limit: 1000 }.estimate()
+    }
+    for (from, to) in [(0.5, 1.5), (-1.0, 2.0), (3.0, 3.125)] {
+        let exact = core_math::exp(to) - core_math::exp(from);
+        assert!((estimate(&Exponential, from, to) / exact - 1.0).abs() < 1e-9);
+    }
+    // What cancels is not taken for nothing: some of the crudest bound is left, `4 (2 · 8)`.
+    let cancelled = estimate(&Cube, -2.0, 2.0);
+    assert!(cancelled > 0.0 && cancelled <= 64.0 / f64::from(1 << 20), "{cancelled}");
+    let larger = estimate(&Cube, -200.0, 200.0);
+    assert!((larger / cancelled / 1e8 - 1.0).abs() < 1e-6);
+}
+
+/// Cut until floats end, or at `2^-120` of the whole.
+#[test]
+fn what_has_no_bound_is_named_as_closely_as_can_be() {
+    for at in [0.7, 0.7_f64.next_up()] {
+        let result = Rigorous::default().integrate(&Peak { at }, 0.25, 1.0).unwrap();
+        let Status::Unresolved { lower, upper } = result.status else { panic!("{result:?}") };
+        assert!(lower <= at && at <= upper && upper <= lower.next_up().next_up(), "{lower} {upper}");
+    }
+    for (from, to) in [(-1.0, 1.0), (0.0, 3.0), (-3.0, 0.0), (-3.0, 1.0)] {
+        let result = Rigorous::default().integrate(&Peak { at: 0.0 }, from, to).unwrap();
+        let Status::Unresolved { lower, upper } = result.status else { panic!("{result:?}") };
+        let width = (upper - lower) / (to - from) * core_math::exp2(120.0);
+        assert!(lower <= 0.0 && 0.0 <= upper && 0.25 < width && width <= 1.0, "{lower} {upper}");
+    }
+}
+
+#[test]
+fn the_limit_on_evaluations_is_kept() {
+    for limit in (100..2000).step_by(37) {
+        for to in [0.5, 30.0, 1e4] {
+            let rule = Rigorous::<f64>::new(0.0, 1e-15).unwrap().with_limit(limit).unwrap();
+            let result = rule.integrate(&Peak { at: -1e-3 }, 0.0, to).unwrap();
+            assert!(result.evaluations <= limit, "{limit}: {result:?}");
+        }
+    }
+}
+
+/// The constants of the rules are cut: nodes and weights lie above.
+#[test]
+fn a_floor_stands_for_what_it_was_cut_from() {
+    let interval = gauss::floored(5);
+    let middle = Wide::from_integer(11, -128);
+    assert!(interval.lower() < middle && middle < interval.upper());
+}

@@ -126,6 +126,14 @@ fn what_cannot_be_known_is_said() {
     assert!(lower <= 0.3 && 0.3 <= upper && upper - lower < 1e-12);
     assert!((singular.value - 2.0 * (1.7_f64.sqrt() + 0.3_f64.sqrt())).abs() <= singular.error);
     assert!(singular.error < 1e-5, "{singular:?}");
+    // Of two, the one that matters more is named, wherever it is.
+    for (near, far) in [(1.0, 1000.0), (1000.0, 1.0)] {
+        let both = |x: f64| near / (x - 0.3).abs().sqrt() + far / (x - 1.1).abs().sqrt();
+        let estimate = settings.integrate_between(both, &[0.0, 0.3, 0.7, 1.1, 2.0]).unwrap();
+        let Status::Unresolved { lower, upper } = estimate.status else { panic!("{estimate:?}") };
+        let at = if near > far { 0.3 } else { 1.1 };
+        assert!((lower..=upper).contains(&at), "{lower} {upper}");
+    }
     // Cancellation: the integral of a large odd function.
     let odd = settings.integrate(|x| 1e6 * x, -3.0, 3.0).unwrap();
     assert_eq!(odd.status, Status::RoundOff);

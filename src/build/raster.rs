@@ -145,3 +145,54 @@ impl<C: Copy> Raster<C> {
         (area.low[1]..area.high[1]).map(move |row| self.row(area, row))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Cell by cell in each direction: the side grows by half each time, so that all copies together cost a few times the
+    /// last one.
+    #[test]
+    fn growing_costs_a_fixed_time_per_cell() {
+        for direction in [[1, 0], [-1, 0], [0, 1], [0, -1]] {
+            let mut used = Area::of_cell([1000, -1000]);
+            let mut raster = Raster::new(used, 0, u64::MAX).unwrap();
+            let (mut copied, mut room) = (0, raster.area.cells());
+            for k in 1..2000 {
+                let cell = [1000 + k * direction[0], -1000 + k * direction[1]];
+                let whole = used.union(Area::of_cell(cell));
+                raster.make_room(used, whole, 0, u64::MAX).unwrap();
+                used = whole;
+                *raster.cell_mut(cell) = k;
+                assert!(raster.area.holds(used) && raster.area.cells() <= 2 * used.cells() + 1);
+                if raster.area.cells() != room {
+                    (copied, room) = (copied + used.cells(), raster.area.cells());
+                }
+            }
+            assert!(copied <= 4 * used.cells(), "{copied} of {}", used.cells());
+            let sum: i64 = raster.rows(used).flatten().sum();
+            assert_eq!(sum, 1999 * 2000 / 2);
+        }
+    }
+
+    /// On the sides where there is room nothing is added.
+    #[test]
+    fn it_grows_on_one_side() {
+        let area = Area { low: [10, 20], high: [18, 26] };
+        let grown = |low, high| area.grown_to(Area { low, high });
+        assert_eq!(grown([11, 20], [19, 26]), Area { low: [10, 20], high: [22, 26] });
+        assert_eq!(grown([9, 21], [18, 25]), Area { low: [6, 20], high: [18, 26] });
+        assert_eq!(grown([10, 19], [12, 22]), Area { low: [10, 17], high: [18, 26] });
+        assert_eq!(grown([10, 20], [18, 99]), Area { low: [10, 20], high: [18, 99] });
+    }
+
+    #[test]
+    fn what_has_room_is_left_alone() {
+        let area = Area { low: [-3, -3], high: [5, 5] };
+        let mut raster = Raster::new(area, 7, 64).unwrap();
+        raster.cells.shrink_to_fit();
+        let before = raster.cells.as_ptr();
+        raster.make_room(area, Area::of_cell([4, -3]), 0, 64).unwrap();
+        assert_eq!(raster.cells.as_ptr(), before);
+    }
+}

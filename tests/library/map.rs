@@ -2,9 +2,9 @@
 
 use super::common::occupancy;
 use mean_information::Error;
-use mean_information::cell::information;
+use mean_information::cell::{Cell, information};
 use mean_information::map::encoding::{LogOdds, MrptLogOdds, Percent, Probability};
-use mean_information::map::{Encoding, Geometry, Grid};
+use mean_information::map::{Encoding, Geometry, Grid, PolarMap};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -145,4 +145,26 @@ fn pooling_states_its_limits() {
     assert_eq!(coarse.geometry().origin(), [-3.0, 7.0]);
     let huge = Grid::<Percent>::new(1, 1, Geometry::new(1e305, [0.0; 2]).unwrap(), vec![7]).unwrap();
     assert!(huge.pooled(1 << 31).is_err(), "the coarse resolution is not finite");
+}
+
+#[test]
+fn a_map_in_sectors() {
+    let cells = vec![0.1, 0.2, 0.3, 0.6, 0.7, 0.8];
+    let map = PolarMap::<Probability<f64>>::new(2, 3, 0.125, cells).unwrap();
+    assert_eq!((map.sectors(), map.rings(), map.resolution()), (2, 3, 0.125));
+    assert_eq!(map.sector(0), Some(&[0.1, 0.2, 0.3][..]));
+    assert_eq!(map.sector(1), Some(&[0.6, 0.7, 0.8][..]));
+    assert_eq!((map.sector(2), map.occupancy(1, 2), map.occupancy(1, 3)), (None, Some(0.8), None));
+}
+
+/// What a cell is stored as, and back.
+#[test]
+fn each_encoding_has_its_unknown_and_its_values() {
+    assert_eq!((Percent::unknown(), MrptLogOdds::unknown(), LogOdds::<f64>::unknown()), (-1, 0, 0.0));
+    assert_eq!((Percent::value(29), MrptLogOdds::value(-32), LogOdds::value(2.5_f32)), (29.0, -32.0, 2.5));
+    assert_eq!(Percent::cell(29), Cell::from_occupancy(0.29).ok());
+    assert_eq!(geometry().cell_area(), 0.05 * 0.05);
+    let bytes = [-128, -127, -32, 0, 0, 64, 127];
+    let cells = bytes.map(|byte| MrptLogOdds::cell(byte).unwrap());
+    assert_eq!(MrptLogOdds::tally(&bytes), cells.into_iter().collect());
 }

@@ -182,3 +182,11 @@ fn edges_of_the_domains() {
     assert!(matches!(room([1e308, 1e308, 0.25, 0.5, 0.5]), Err(Refusal::TooLarge(_))));
     assert!(matches!(room([2.0, 0.25, 0.25, f64::INFINITY, 0.5]), Err(Refusal::Domain(_))));
 }
+
+#[test]
+fn a_refusal_says_why() {
+    let refusal = find("cell.entropy").unwrap().run(&[Value::Float(1.5_f64)]).unwrap_err();
+    let Refusal::Domain(error) = &refusal else { panic!("{refusal:?}") };
+    assert_eq!(refusal.to_string(), error.to_string());
+    assert_eq!(Refusal::Arguments.to_string(), "not the arguments of this operation");
+}

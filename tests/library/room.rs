@@ -373,3 +373,42 @@ proptest! {
         }
     }
 }
+
+/// As many samples as there are, and not one less: of rooms of one cell and of more, in cells of any number of samples.
+#[test]
+fn limits_count_samples() {
+    let sensor = GaussianSensor::new(2.0_f64, 0.25).unwrap();
+    for (h, n) in [(4.75, 1), (4.75, 16), (4.75, 1024), (0.5, 1), (0.5, 4), (0.21, 32)] {
+        let cartesian = CartesianRoom::new(sensor, h, [0.0; 2]).unwrap();
+        let cartesian = cartesian.with_sampling(Sampling::Averaged(n)).unwrap().with_limit(u64::MAX);
+        let samples = cartesian.width().unwrap() * cartesian.height().unwrap() * u64::from(n * n);
+        assert!(cartesian.clone().with_limit(samples).width().is_ok(), "{h} {n}");
+        let refused = cartesian.with_limit(samples - 1).width();
+        assert!(matches!(refused, Err(Error::TooManyCells { .. })), "{h} {n}");
+        let polar = PolarRoom::new(sensor, h / 2.0).unwrap().with_sampling(Sampling::Averaged(n)).unwrap();
+        let rings = polar.clone().with_limit(u64::MAX).rings().unwrap();
+        let samples = rings * u64::from(n);
+        assert_eq!(polar.clone().with_limit(samples).rings(), Ok(rings), "{h} {n}");
+        let refused = polar.clone().with_limit(samples - 1).rings();
+        assert!(matches!(refused, Err(Error::TooManyCells { .. })), "{h} {n}");
+        let cells = 3 * rings as usize;
+        assert!(polar.map(3, cells).is_ok() && polar.map(3, cells - 1).is_err(), "{h} {n}");
+    }
+    // Beyond the indices that can be counted, whatever the limit.
+    for h in [1e-16, 1e-19, 1e-300] {
+        let room = CartesianRoom::new(sensor, h, [0.0; 2]).unwrap().with_limit(u64::MAX);
+        assert!(matches!(room.width(), Err(Error::TooManyCells { .. })), "{h}");
+    }
+}
+
+/// The nearest sample of the cell about the sensor decides whether it is in the grid: here `(0.05, 0.05)` of a cell whose
+/// centre is at `(0.2, 0.2)`, and of which the reach is 0.11.
+#[test]
+fn the_nearest_sample_of_the_cell_about_the_sensor() {
+    for offset in [0.2, -0.2] {
+        let room = cartesian(0.1_f64, 0.01, 1.0, [offset; 2]).with_sampling(Sampling::Averaged(2)).unwrap();
+        let tally = room.tally().unwrap();
+        assert_eq!((tally.cells(), tally.observed()), (1, 1));
+        assert_eq!(room.map(1).unwrap().tally(), tally);
+    }
+}

@@ -330,6 +330,33 @@ impl InverseSensorModel for Broken {
     }
 }
 
+/// One that reaches as far as it says.
+struct Reaching(f64);
+
+impl InverseSensorModel for Reaching {
+    type Float = f64;
+
+    fn occupancy(&self, _: f64) -> f64 {
+        0.25
+    }
+
+    fn reach(&self) -> f64 {
+        self.0
+    }
+}
+
+#[test]
+fn a_reach_is_a_length() {
+    let pose = pose_of(0.125, -0.25, 0.5);
+    assert_eq!((pose.position(), pose.theta()), ([0.125, -0.25], 0.5));
+    let scan = Scan::new(pose, 9.0, vec![Beam { bearing: 0.25, range: Some(3.0) }]).unwrap();
+    for reach in [-1.5, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let refused = ScanMap::new(0.25).unwrap().insert(&scan, |_| Ok(Reaching(reach))).unwrap_err();
+        assert!(matches!(refused, Error::Item { what: "reach of beam", index: 0, .. }), "{refused}");
+    }
+    ScanMap::new(0.25).unwrap().insert(&scan, |_| Ok(Reaching(0.0))).unwrap();
+}
+
 #[test]
 fn a_refused_scan_changes_nothing() {
     let scan = |x: f64, range: f64| {

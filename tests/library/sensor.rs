@@ -157,3 +157,22 @@ fn steps_include_both_faces_of_the_obstacle() {
     assert_eq!(sensor.reach(), 3.25);
     assert!(sensor.occupancy(f64::NAN).is_nan());
 }
+
+/// Up to the last float or so at the occupancy of the sensor's own place.
+#[test]
+fn the_plateau_ends_where_the_occupancy_changes() {
+    for (z, sigma) in [(2.0_f64, 0.01), (7.0, 0.125), (3.0, 1e9)] {
+        let sensor = GaussianSensor::new(z, sigma).unwrap();
+        let plateau = sensor.plateau();
+        assert!(0.25 * z < plateau && plateau < z, "{plateau}");
+        assert_eq!(sensor.occupancy(plateau), sensor.occupancy(0.0));
+        // To 53 halvings of the range.
+        let beyond = plateau + 4.0 * z * f64::EPSILON;
+        assert!(beyond >= z || sensor.occupancy(beyond) != sensor.occupancy(0.0), "{plateau}");
+    }
+    // Nothing before the sensor: the whole obstacle.
+    let touching = SteppedSensor::new(0.25_f64, 0.5, 0.125, 0.875).unwrap();
+    assert_eq!((touching.occupancy(0.0), touching.plateau()), (0.875, 0.5));
+    let steps = SteppedSensor::new(3.0_f64, 0.5, 0.125, 0.875).unwrap();
+    assert_eq!(steps.plateau(), 2.75_f64.next_down());
+}

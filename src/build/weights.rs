@@ -108,8 +108,8 @@ impl Mean<'_> {
 
     /// Of a mean `p` in `[0, 1]`: `1 - p`, exactly.
     pub(super) fn complement(&self) -> Self {
-        let (sum, is_negative) = self.whole().difference(&self.sum);
-        Self { sum, is_negative, ..*self }
+        let (sum, _) = self.whole().difference(&self.sum);
+        Self { sum, ..*self }
     }
 
     /// Whether the mean is below, at or above 0, exactly.

@@ -27,6 +27,7 @@ pub(crate) struct Wide {
 const TOP: u128 = 1 << 127;
 /// Finite numbers have exponents up to this magnitude, above those of every product of `f64`.
 const LARGEST_EXPONENT: i32 = (1 << 14) - 256;
+const _: () = assert!(LARGEST_EXPONENT < 1 << 14, "the logarithm takes no larger ones");
 const INFINITE: i32 = i32::MAX;
 
 impl Wide {

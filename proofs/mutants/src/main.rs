@@ -5,7 +5,7 @@
 //! cargo-mutants compiles each mutant; here all are compiled once, each behind a switch that an environment variable sets, and
 //! a mutant is run against those tests only which reach its place. WORK (default `target/mutants`) gets
 //!
-//! * `library/`: the copy of the repository with the switches;
+//! * `library/`: the copy of the repository with the switches, and `plain/` without, for `tests/proofs`;
 //! * `log.tsv`: a line for each mutant, verdict, test and name. A name that is there is not run again: delete its line to do so;
 //! * `refused.tsv`: the mutants that cannot be expressed by a switch, which cargo-mutants has to try (most do not compile).
 
@@ -28,9 +28,20 @@ use suites::Verdict;
 use switches::Switched;
 
 const PACKAGE: [&str; 4] = ["--package", "mean-information", "--features", "serde,vectors"];
-/// Not `proofs`, which reads the source, and not `same_bits`, which compiles it.
-const SUITES: [&str; 9] =
-    ["--lib", "--test", "library", "--test", "portable", "--test", "vectors", "--test", "single_precision"];
+/// Not `same_bits`, which compiles the source.
+const SUITES: [&str; 11] = [
+    "--lib",
+    "--test",
+    "library",
+    "--test",
+    "portable",
+    "--test",
+    "vectors",
+    "--test",
+    "single_precision",
+    "--test",
+    "proofs",
+];
 /// Generated, and checked against their generators by `proofs/check.sh`.
 const GENERATED: [&str; 2] = ["src/rounded/constants.rs", "src/limit/closed_form/tables.rs"];
 
@@ -38,8 +49,10 @@ fn main() {
     let work = PathBuf::from(std::env::args().nth(1).unwrap_or_else(|| "target/mutants".to_owned()));
     fs::create_dir_all(&work).expect("the work directory can be made");
     let root = work.canonicalize().expect("the work directory is there").join("library");
-    let mutants = list();
-    println!("{} mutants", mutants.len());
+    // Those that .cargo/mutants.toml excludes are run, too: they must not be caught.
+    let mutants = list(&["--no-config"]);
+    let kept: HashSet<String> = list(&[]).into_iter().map(|mutant| mutant.name).collect();
+    println!("{} mutants, {} of them excluded", mutants.len(), mutants.len() - kept.len());
     copy(&root);
 
     let mut files: BTreeMap<&str, Vec<Mutant>> = BTreeMap::new();
@@ -60,7 +73,11 @@ fn main() {
     fs::write(work.join("refused.tsv"), lines.collect::<String>()).expect("refused.tsv can be written");
     println!("{} refused", refused.len());
 
-    let suites = build(&root);
+    let (proofs, suites): (Vec<_>, Vec<_>) =
+        build(&root).into_iter().partition(|suite| suite.to_string_lossy().contains("proofs-"));
+    // `tests/proofs` compares the source with the proofs, as text: without switches.
+    let plain = Mutex::new(work.canonicalize().expect("the work directory is there").join("plain"));
+    copy(&plain.lock().expect("no thread has it yet"));
     let tests = suites::measure(&root, &suites, &examples(&root), &root.join("reached"));
     let total: f64 = tests.iter().map(|test| test.time.as_secs_f64()).sum();
     println!("{} tests, {total:.1} s", tests.len());
@@ -69,14 +86,14 @@ fn main() {
         .flat_map(|(_, places)| places)
         .flat_map(|place| place.mutants.iter().map(|mutant| (mutant.id, place.mutants[0].id)))
         .collect();
-    let log = work.join("log.tsv");
-    let done = fs::read_to_string(&log).unwrap_or_default();
+    let path = work.join("log.tsv");
+    let done = fs::read_to_string(&path).unwrap_or_default();
     let done: HashSet<&str> = done.lines().filter_map(|line| line.split('\t').nth(2)).collect();
     let wanted: Vec<&Mutant> = mutants
         .iter()
         .filter(|mutant| !refused.contains_key(&mutant.id) && !done.contains(mutant.name.as_str()))
         .collect();
-    let log = OpenOptions::new().append(true).create(true).open(&log).expect("log.tsv can be opened");
+    let log = OpenOptions::new().append(true).create(true).open(&path).expect("log.tsv can be opened");
     let (log, next) = (Mutex::new(log), AtomicUsize::new(0));
     let cores = thread::available_parallelism().map_or(1, usize::from);
     thread::scope(|scope| {
@@ -87,6 +104,15 @@ fn main() {
                     {
                         Verdict::Caught(test) => ("caught", test),
                         Verdict::Timeout => ("timeout", String::new()),
+                        Verdict::Missed if mutant.file.starts_with("src/rounded") => {
+                            let plain = plain.lock().expect("no thread panics with the plain copy");
+                            let file = plain.join(&mutant.file);
+                            let source = &sources[mutant.file.as_str()].0;
+                            write(&file, mutant.applied(source).as_bytes());
+                            let differs = suites::fails(&plain, &proofs[0]);
+                            write(&file, source.as_bytes());
+                            if differs { ("caught", "proofs".to_owned()) } else { ("missed", String::new()) }
+                        }
                         Verdict::Missed => ("missed", String::new()),
                     };
                     let line = format!("{verdict}\t{test}\t{}\n", mutant.name);
@@ -96,12 +122,35 @@ fn main() {
             });
         }
     });
+    report(&path, &mutants, &refused, &kept);
 }
 
-/// The mutants of cargo-mutants, with its configuration.
-fn list() -> Vec<Mutant> {
+/// Prints how many mutants have which verdict, those that are missed, and those that are caught although excluded.
+fn report(log: &Path, mutants: &[Mutant], refused: &HashMap<u32, String>, kept: &HashSet<String>) {
+    let log = fs::read_to_string(log).unwrap_or_default();
+    let verdicts: HashMap<&str, &str> = log
+        .lines()
+        .filter_map(|line| line.split_once('\t'))
+        .filter_map(|(verdict, rest)| Some((rest.split_once('\t')?.1, verdict)))
+        .collect();
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    for mutant in mutants.iter().filter(|mutant| !refused.contains_key(&mutant.id)) {
+        let verdict = verdicts.get(mutant.name.as_str()).copied().unwrap_or("not run");
+        let kept = kept.contains(&mutant.name);
+        *counts.entry(if kept { verdict } else { "excluded" }).or_default() += 1;
+        if kept == (verdict == "missed") {
+            println!("{verdict}{}: {}", if kept { "" } else { ", although excluded" }, mutant.name);
+        }
+    }
+    println!("{counts:?}, refused: {}", refused.len());
+}
+
+/// The mutants of cargo-mutants.
+fn list(options: &[&str]) -> Vec<Mutant> {
     let mut command = Command::new("cargo");
-    command.args(["mutants", "--package", "mean-information", "--all-features", "--list", "--json"]);
+    command
+        .args(["mutants", "--package", "mean-information", "--all-features", "--list", "--json"])
+        .args(options);
     for file in GENERATED {
         command.args(["--exclude", file]);
     }

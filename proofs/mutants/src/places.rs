@@ -1,6 +1,6 @@
 //! Where the mutants of one file stand: the pieces of source that a switch replaces.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
 use proc_macro2::Span;
@@ -22,6 +22,21 @@ pub struct Mutant {
     /// Line from 1 and column from 0 where it begins.
     pub start: (usize, usize),
     pub end: (usize, usize),
+}
+
+impl Mutant {
+    /// The source with this mutant in it, as cargo-mutants would write it.
+    pub fn applied(&self, source: &str) -> String {
+        let (start, end) = (offset(source, self.start), offset(source, self.end));
+        [&source[..start], &self.replacement, &source[end..]].concat()
+    }
+}
+
+/// The byte of a line and column.
+fn offset(source: &str, (line, column): (usize, usize)) -> usize {
+    let before: usize = source.split_inclusive('\n').take(line - 1).map(str::len).sum();
+    let rest = &source[before..];
+    before + rest.char_indices().nth(column).map_or(rest.len(), |(k, _)| k)
 }
 
 /// A piece of source with its mutants.
@@ -47,6 +62,8 @@ pub enum Kind {
     Assignment { left: Range<usize>, op: Range<usize>, right: Range<usize> },
     /// `-operand` or `!operand`.
     Unary { op: Range<usize>, operand: Range<usize> },
+    /// An expression that parses differently with the mutant's operator, which binds tighter or less tight.
+    Whole,
     /// The guard of a match arm.
     Guard,
     /// What follows the pattern of a match arm: nothing, or its guard.
@@ -62,19 +79,43 @@ pub fn find(source: &str, mutants: &[Mutant]) -> (Vec<Place>, Vec<Mutant>) {
     for mutant in mutants {
         open.entry((mutant.genre.clone(), mutant.start.0, mutant.start.1)).or_default().push(mutant.clone());
     }
-    let mut finder = Finder { open, places: Vec::new() };
+    let mut finder = Finder { open, ..Finder::default() };
     finder.visit_file(&file);
     // Bodies and guards are whole ranges of the list itself.
-    let lines: Vec<usize> =
-        std::iter::once(0).chain(source.match_indices('\n').map(|(k, _)| k + 1)).collect();
-    let offset = |(line, column): (usize, usize)| {
-        let rest = &source[lines[line - 1]..];
-        lines[line - 1] + rest.char_indices().nth(column).map_or(rest.len(), |(k, _)| k)
-    };
-    let mut places = finder.places;
-    let mut without = Vec::new();
+    let (mut places, mut without) = (Vec::new(), Vec::new());
+    for mut place in finder.places {
+        let operands = match &place.kind {
+            Kind::Arithmetic { left, right, .. } | Kind::Comparison { left, right, .. } => {
+                [left, right].map(Clone::clone)
+            }
+            Kind::Logical { left, right, .. } | Kind::Assignment { left, right, .. } => {
+                [left, right].map(Clone::clone)
+            }
+            _ => {
+                places.push(place);
+                continue;
+            }
+        };
+        for mutant in std::mem::take(&mut place.mutants) {
+            match whole(
+                source,
+                &finder.expressions,
+                &mutant,
+                &[&operands[..], &[place.range.clone()]].concat(),
+            ) {
+                None => without.push(mutant),
+                Some(None) => place.mutants.push(mutant),
+                // A binding would not reach the branch behind it.
+                Some(Some(range)) if source[range.clone()].contains("let ") => without.push(mutant),
+                Some(Some(range)) => places.push(Place { range, kind: Kind::Whole, mutants: vec![mutant] }),
+            }
+        }
+        if !place.mutants.is_empty() {
+            places.push(place);
+        }
+    }
     for ((genre, ..), mutants) in finder.open {
-        let (start, end) = (offset(mutants[0].start), offset(mutants[0].end));
+        let (start, end) = (offset(source, mutants[0].start), offset(source, mutants[0].end));
         match genre.as_str() {
             // The type behind an `impl` is that of one body.
             "FnValue" if !mutants[0].returned.contains("impl ") => {
@@ -87,16 +128,43 @@ pub fn find(source: &str, mutants: &[Mutant]) -> (Vec<Place>, Vec<Mutant>) {
     // Outer before inner; what is put in front of an expression before that expression.
     places.sort_by_key(|place| {
         // A guard is often one comparison.
-        let inner = !matches!(place.kind, Kind::Body | Kind::Guard);
+        let inner = !matches!(place.kind, Kind::Body | Kind::Guard | Kind::Whole);
         (place.range.start, !matches!(place.kind, Kind::Body), std::cmp::Reverse(place.range.end), inner)
     });
     (places, without)
 }
 
+/// The smallest expression about a mutant that is one with and without it; none if its `parts`, the operation and the operands,
+/// stay the same. Nothing if the mutant does not parse.
+fn whole(
+    source: &str,
+    expressions: &[Range<usize>],
+    mutant: &Mutant,
+    parts: &[Range<usize>],
+) -> Option<Option<Range<usize>>> {
+    let (start, end) = (offset(source, mutant.start), offset(source, mutant.end));
+    let file = syn::parse_file(&mutant.applied(source)).ok()?;
+    let mut finder = Finder::default();
+    finder.visit_file(&file);
+    let longer = mutant.replacement.len() as isize - (end - start) as isize;
+    let back = |at: usize| if at <= start { at } else { at.strict_add_signed(-longer) };
+    let there: HashSet<Range<usize>> =
+        finder.expressions.iter().map(|range| back(range.start)..back(range.end)).collect();
+    if parts.iter().all(|part| there.contains(part)) {
+        return Some(None);
+    }
+    let about =
+        expressions.iter().filter(|range| range.start < start && end < range.end && there.contains(range));
+    about.min_by_key(|range| range.len()).cloned().map(Some)
+}
+
+#[derive(Default)]
 struct Finder {
     /// The mutants without a place yet, by genre and start.
     open: HashMap<(String, usize, usize), Vec<Mutant>>,
     places: Vec<Place>,
+    /// Where every expression stands.
+    expressions: Vec<Range<usize>>,
 }
 
 impl Finder {
@@ -122,6 +190,11 @@ fn has_let(expression: &Expr) -> bool {
 }
 
 impl<'ast> Visit<'ast> for Finder {
+    fn visit_expr(&mut self, node: &'ast Expr) {
+        self.expressions.push(range(node));
+        visit::visit_expr(self, node);
+    }
+
     fn visit_expr_binary(&mut self, node: &'ast syn::ExprBinary) {
         let (left, op, right) = (range(&node.left), range(&node.op), range(&node.right));
         let kind = || match node.op {

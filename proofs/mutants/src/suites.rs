@@ -110,6 +110,13 @@ pub fn judge(root: &Path, tests: &[Test], mutant: u32, place: u32) -> Verdict {
     Verdict::Missed
 }
 
+/// Whether a suite fails in a folder.
+pub fn fails(root: &Path, suite: &Path) -> bool {
+    let mut command = Command::new(suite);
+    command.current_dir(root).process_group(0);
+    !matches!(run(&mut command, Duration::from_secs(60)), Outcome::Passed)
+}
+
 fn list(root: &Path, suite: &Path, more: &[&str]) -> Vec<String> {
     let mut command = Command::new(suite);
     command.current_dir(root).args(["--list", "--format", "terse"]).args(more);

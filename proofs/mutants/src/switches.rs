@@ -95,6 +95,13 @@ impl Writer<'_> {
         use Piece::{Arms, Source, Text};
         match &place.kind {
             Kind::Body => put(out, &[Arms(&|with| format!("return {with}")), Text("{} } ")]),
+            Kind::Whole => {
+                let mutant = &place.mutants[0];
+                let (start, length) = (place.range.start, self.source.len() - place.range.end);
+                let applied = mutant.applied(self.source);
+                let arm = |_: &str| format!("({})", &applied[start..applied.len() - length]);
+                put(out, &[Text("("), Arms(&arm), Text("("), Source(&place.range), Text(") })")]);
+            }
             Kind::Guard => put(out, &[Arms(&|with| with.to_owned()), Source(&place.range), Text(" }")]),
             Kind::Arithmetic { left, op, right } => {
                 let all = format!("__l {} __r }} }})", source(op));

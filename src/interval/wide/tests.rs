@@ -279,3 +279,22 @@ fn a_difference_just_below_a_power_of_two() {
     let exact = integer(large) - integer(small);
     assert!(integer(lower) <= exact && exact <= integer(upper));
 }
+
+/// `ln 2 = 18 artanh(1/26) - 2 artanh(1/4801) + 8 artanh(1/8749)`
+#[test]
+fn ln_2_lies_between_its_ends() {
+    let artanh = |n: u32| -> BigInt {
+        let mut power = one() / n;
+        let mut sum = BigInt::ZERO;
+        for k in (1_u32..200).step_by(2) {
+            sum += &power / k;
+            power /= n * n;
+        }
+        sum
+    };
+    let ln_2: BigInt = artanh(26) * 18 - artanh(4801) * 2 + artanh(8749) * 8;
+    // Some thousand floors.
+    let ends = [Wide::LN_2.lower, Wide::LN_2.upper].map(integer);
+    assert!(&ends[0] + 10_000 < ln_2 && ln_2 < &ends[1] - 10_000);
+    assert_eq!(&ends[1] - &ends[0], BigInt::from(2) << (SCALE - 128));
+}

@@ -37,6 +37,10 @@ fn a_circle_holds_no_more_points_than_the_bound() {
         let room = Room::new(&sensor, 3.0, Weight::Area).unwrap();
         assert!(held <= room.cells_at_one_half(Up(0.0)).0);
     }
+    // However small, a disc may hold a point.
+    assert!(
+        [1e-9, 0.01, 0.3].map(|radius| points_in_a_disc(Up(radius)).0).iter().all(|&points| points >= 1.0)
+    );
     // Half-way between cells: 2 n = (2i + 1)^2 + (2j + 1)^2.
     assert_eq!(points(0.5, 0.5, 0.7..=0.71), 4.0);
 }
@@ -85,7 +89,7 @@ fn powers_are_rounded_up() {
 /// Sensors on either side of `z = σ √(ln 4)`, and cells of which the room is from one to some millions wide.
 fn rooms<T: Real>() -> Vec<(GaussianSensor<T>, T)> {
     let sensor = |alpha| GaussianSensor::new(T::nearest(3.0 * alpha), T::nearest(3.0)).expect("positive");
-    let cells = [1.7, 4.9, 5.0, 12.3, 217.0, 1e4, 3e6];
+    let cells = [1.7, 4.9, 5.0, 12.3, 217.0, 1e4, 3e6, 1e8];
     let rooms = [0.4, 1.1, 1.3, 9.0, 3e3]
         .map(|alpha| cells.map(|x| (sensor(alpha), T::nearest(3.0 * (alpha + B[0]) / x))));
     rooms.concat()

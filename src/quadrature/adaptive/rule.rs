@@ -201,11 +201,8 @@ const fn bands<const N: usize>(nodes: &[f64; N]) -> [[f64; 8]; N] {
         let (mut previous, mut current, mut k) = (0.0, 1.0, 0);
         while k <= high {
             let value = square_root((2 * k + 1) as f64) * current;
-            if k + 3 >= low && k <= low {
-                result[i][k % 4] = value;
-            } else if k + 3 >= high {
-                result[i][4 + k % 4] = value;
-            }
+            // Of either band the last four stay.
+            result[i][if k <= low { k % 4 } else { 4 + k % 4 }] = value;
             let next = ((2 * k + 1) as f64 * nodes[i] * current - k as f64 * previous) / (k + 1) as f64;
             (previous, current, k) = (current, next, k + 1);
         }

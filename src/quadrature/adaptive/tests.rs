@@ -164,6 +164,10 @@ fn the_noise_covers_rounding_and_vanishes_with_the_integrand() {
         assert!(reading.noise <= 6.0 * f64::EPSILON * 0.1 * width);
         let nothing = rule.apply(&mut |_| 0.0_f64, STRETCH);
         assert_eq!([nothing.value, nothing.difference, nothing.noise, nothing.decay], [0.0; 4]);
+        // Where every product is rounded to a multiple of the smallest float: four for each of up to 61 nodes.
+        let smallest = f64::from_bits(1);
+        let least = rule.apply(&mut |_| smallest, Stretch { lower: 3.0, upper: 3.125 });
+        assert!(least.noise >= 4.0 * 61.0 * smallest && least.noise <= 300.0 * smallest);
         // 8 per step of the argument: the last digit of an argument near 1e5 is worth `8 * 2^-36`.
         let slope = rule.apply(&mut |x: f64| 8.0 * (x - 1e5), Stretch { lower: 1e5, upper: 1e5 + 1.0 });
         assert!((slope.value - 4.0).abs() <= slope.noise && slope.noise >= 8.0 * 1e5 * f64::EPSILON);

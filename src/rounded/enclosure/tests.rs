@@ -141,3 +141,14 @@ fn small_integers_round_into_the_subnormal_range() {
     assert_eq!(round_limbs::<f64>(&[u64::MAX, u64::MAX], -1074 - 129, true).to_bits(), 0);
     assert_eq!(round_limbs::<f64>(&[u64::MAX, u64::MAX], -1074 - 128, true).to_bits(), 1);
 }
+
+/// Three quarters of the smallest float, in the top bits of the integer.
+#[test]
+fn the_smallest_float_of_the_largest_integers() {
+    fn rounded<T: Real>(lo: u128) -> Rounded<T> {
+        Enclosure { lo, width: 1, exponent: T::MIN_EXPONENT - 127 }.round()
+    }
+    assert!(matches!(rounded::<f64>(3 << 125), Rounded::Decided(x) if x == f64::from_bits(1)));
+    assert!(matches!(rounded::<f32>(3 << 125), Rounded::Decided(x) if x == f32::from_bits(1)));
+    assert!(matches!(rounded::<f64>(1 << 125), Rounded::Decided(0.0)));
+}

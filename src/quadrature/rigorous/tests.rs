@@ -105,6 +105,13 @@ impl Integrand for Peak {
     }
 }
 
+struct Root;
+impl Integrand for Root {
+    fn evaluate<S: Scalar>(&self, x: S) -> S {
+        x.sqrt()
+    }
+}
+
 #[test]
 fn the_estimate_is_about_the_magnitude() {
     fn estimate(f: &impl Integrand, from: f64, to: f64) -> f64 {
@@ -145,6 +152,28 @@ fn the_limit_on_evaluations_is_kept() {
             let result = rule.integrate(&Peak { at: -1e-3 }, 0.0, to).unwrap();
             assert!(result.evaluations <= limit, "{limit}: {result:?}");
         }
+        // A hundred panels towards 0, each of which is evaluated once more.
+        let rule = Rigorous::<f64>::new(1e-60, 0.0).unwrap().with_limit(limit).unwrap();
+        let result = rule.integrate(&Root, 0.0, 3.0).unwrap();
+        assert!(result.evaluations <= limit, "{limit}: {result:?}");
+    }
+}
+
+/// `x^3 + 10^-9`: next to its range, the integral between opposite ends is nothing.
+struct Offset;
+impl Integrand for Offset {
+    fn evaluate<S: Scalar>(&self, x: S) -> S {
+        Cube.evaluate(x) + S::constant(1e-9)
+    }
+}
+
+/// The first tolerance is that of the range; then more is asked for.
+#[test]
+fn what_cancels_is_integrated_again() {
+    for relative in [1e-2, 1e-3, 1e-6, 1e-9] {
+        let result = Rigorous::<f64>::new(0.0, relative).unwrap().integrate(&Offset, -2.0, 2.0).unwrap();
+        assert_eq!(result.status, Status::Converged, "{result:?}");
+        assert!(result.contains(4e-9) && result.width() <= 4.1e-9 * relative, "{result:?}");
     }
 }
 

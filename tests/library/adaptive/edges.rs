@@ -134,6 +134,11 @@ fn what_cannot_be_known_is_said() {
         let at = if near > far { 0.3 } else { 1.1 };
         assert!((lower..=upper).contains(&at), "{lower} {upper}");
     }
+    // Of many alike none is most of the error.
+    let points = [0.3, 0.7, 1.1, 1.3, 1.7];
+    let many = |x: f64| points.iter().map(|at| 1.0 / (x - at).abs().sqrt()).sum();
+    let ends = [&[0.0], &points[..], &[2.0]].concat();
+    assert_eq!(settings.integrate_between(many, &ends).unwrap().status, Status::RoundOff);
     // Cancellation: the integral of a large odd function.
     let odd = settings.integrate(|x| 1e6 * x, -3.0, 3.0).unwrap();
     assert_eq!(odd.status, Status::RoundOff);

@@ -167,6 +167,19 @@ impl Integrand for Offset {
     }
 }
 
+/// The same with the roots of twenty distances, each of which takes its share of the tolerance.
+struct Kinks;
+impl Integrand for Kinks {
+    fn evaluate<S: Scalar>(&self, x: S) -> S {
+        let root = |k: i32| {
+            let d = x.clone() - S::constant(-1.9 + 0.2 * f64::from(k));
+            (d.clone() * d).sqrt().sqrt()
+        };
+        let roots = (1..20).fold(root(0), |sum, k| sum + root(k));
+        Cube.evaluate(x.clone()) + S::constant(1e-9) * roots
+    }
+}
+
 /// The first tolerance is that of the range; then more is asked for.
 #[test]
 fn what_cancels_is_integrated_again() {
@@ -175,6 +188,8 @@ fn what_cancels_is_integrated_again() {
         assert_eq!(result.status, Status::Converged, "{result:?}");
         assert!(result.contains(4e-9) && result.width() <= 4.1e-9 * relative, "{result:?}");
     }
+    let kinks = Rigorous::<f64>::new(0.0, 1e-2).unwrap().integrate(&Kinks, -2.0, 2.0).unwrap();
+    assert_eq!(kinks.status, Status::Converged, "{kinks:?}");
 }
 
 /// The constants of the rules are cut: nodes and weights lie above.

@@ -53,7 +53,7 @@ impl<T: Real> Information<T> {
         #[cfg(feature = "std")]
         let cells = blocks::each(cells, lanes::information, |block, left| {
             sums.sum.add_fixed::<T>(block.information);
-            sums.observed += block.decided() - block.unknown;
+            sums.observed += block.free;
             left.for_each(|p| sums.add(p));
         });
         for &p in cells {

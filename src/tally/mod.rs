@@ -108,7 +108,7 @@ impl<T: Real> Tally<T> {
             tally.information.add_fixed::<T>(block.information);
             tally.unknown += block.unknown;
             tally.occupied += block.occupied;
-            tally.free += block.decided() - block.unknown - block.occupied;
+            tally.free += block.free;
             tally.extend(left.flat_map(Cell::from_occupancy));
         });
         tally.extend(cells.iter().flat_map(|&p| Cell::from_occupancy(p)));

@@ -40,12 +40,6 @@ pub(crate) trait Lane: Real {
     /// Adds the bits of a float to a sum of bits.
     fn add_bits(sum: Self::Word, x: Self) -> Self::Word;
 
-    /// Counts one more if `yes`.
-    fn count(count: Self::Word, yes: bool) -> Self::Word;
-
-    /// A count as any other number.
-    fn counted(count: Self::Word) -> u64;
-
     /// A sum of the bits of `count` floats `origin + k ulp`, taken apart: the sum of the `k`.
     fn ulps(sum: Self::Word, origin: Self, count: usize) -> i64;
 }
@@ -105,15 +99,6 @@ macro_rules! impl_lane {
             #[inline(always)]
             fn add_bits(sum: $word, x: Self) -> $word {
                 sum.wrapping_add(x.to_bits())
-            }
-
-            #[inline(always)]
-            fn count(count: $word, yes: bool) -> $word {
-                count + $word::from(yes)
-            }
-
-            fn counted(count: $word) -> u64 {
-                u64::from(count)
             }
 
             fn ulps(sum: $word, origin: Self, count: usize) -> i64 {

@@ -7,17 +7,28 @@ use crate::rounded::mean::Fixed;
 /// The cells that are summed up at once: so few that no sum of bits overflows.
 pub(crate) const BLOCK: usize = 256;
 
-/// What a block of cells adds to a tally, but for those marked open.
+/// What became of a cell.
+mod mark {
+    /// In no sum: not decided, beyond the table, or no probability.
+    pub(super) const OPEN: u8 = 0;
+    /// In the sums, below 1/2; without entropies, or above.
+    pub(super) const FREE: u8 = 1;
+    pub(super) const OCCUPIED: u8 = 2;
+    pub(super) const UNKNOWN: u8 = 3;
+}
+
+/// What a block of cells adds to a tally, but for those that are left open.
 #[derive(Debug)]
 pub(crate) struct Block {
-    /// The exact sum of the rounded entropies, and of the rounded information; without entropies the first is 0, and so is the
-    /// number of occupied cells.
+    /// The exact sum of the rounded entropies, or 0 without them.
     pub(crate) entropy: Fixed,
+    /// The exact sum of the rounded information.
     pub(crate) information: Fixed,
     pub(crate) unknown: u64,
+    pub(crate) free: u64,
+    /// Without entropies 0: they are among the free ones.
     pub(crate) occupied: u64,
-    /// 1 where the cell is in the sums, 0 where it was left out: not decided, beyond the table, or no probability.
-    pub(crate) closed: [u8; BLOCK],
+    marks: [u8; BLOCK],
 }
 
 /// A sum of numbers in `[0, 1]` in integers: units of `2^(2 - PRECISION)`, and what is left, in as many bits below.
@@ -61,14 +72,14 @@ impl<T: Lane> Sum<T> {
 }
 
 impl Block {
-    /// The number of cells in the sums.
-    pub(crate) fn decided(&self) -> u64 {
-        self.closed.iter().map(|&closed| u64::from(closed)).sum()
-    }
-
-    /// Those of its cells that are not.
+    /// Those of its cells that are in no sum.
     pub(crate) fn open<T: Copy>(&self, cells: &[T]) -> impl Iterator<Item = T> {
-        self.closed.iter().zip(cells).filter(|(closed, _)| **closed == 0).map(|(_, &p)| p)
+        // Eight at a time, since there are few.
+        let eights = self.marks.as_chunks::<8>().0.iter().zip(cells.chunks(8));
+        let some_open = |marks: &[u8; 8]| marks.contains(&mark::OPEN);
+        eights.filter(move |(marks, _)| some_open(marks)).flat_map(|(marks, cells)| {
+            marks.iter().zip(cells).filter(|(mark, _)| **mark == mark::OPEN).map(|(_, &p)| p)
+        })
     }
 
     /// Of the cells of the given occupancies, with their entropies or without.
@@ -82,10 +93,9 @@ impl Block {
     ) -> Self {
         let (zero, one) = (T::zero(), T::one());
         let least = T::from_parts(1, -T::BINADES);
-        let mut closed = [0; BLOCK];
+        let mut marks = [mark::OPEN; BLOCK];
         let (mut entropy, mut information) = (Sum::new(), Sum::new());
-        let (mut unknown, mut occupied) = (T::Word::default(), T::Word::default());
-        for (&p, closed) in cells.iter().zip(&mut closed) {
+        for (&p, mark) in cells.iter().zip(&mut marks) {
             let rest = one - p;
             let q = if p < rest { p } else { rest };
             let double = q + q;
@@ -93,16 +103,17 @@ impl Block {
             // The distance from unknown, or twice that from certain; both exact.
             let x = if near { one - double } else { double };
             let (head, tail) = value::<T, FUSED, ENTROPY>(table, x, near);
-            let error = head * T::ERROR;
-            let (value, above) = (head + (tail - error), head + (tail + error));
-            let mut done = (x >= least) & (value == above);
+            let (below, above) =
+                (fused::<T, FUSED>(head, -T::ERROR, tail), fused::<T, FUSED>(head, T::ERROR, tail));
+            let (value, value_above) = (head + below, head + above);
+            let mut done = (x >= least) & (value == value_above);
             // Certain or unknown, where the distance is 0.
             let edge = x.is_zero();
             if ENTROPY {
                 let complement = one - head;
-                let rest = ((one - complement) - head) - tail;
-                let (other, above) = (complement + (rest - error), complement + (rest + error));
-                done &= other == above;
+                let rest = (one - complement) - head;
+                let (other, other_above) = (complement + (rest - above), complement + (rest - below));
+                done &= other == other_above;
                 let value = if done & !edge { value } else { zero };
                 let other = if edge {
                     one
@@ -118,20 +129,26 @@ impl Block {
                 information.add(if edge & !near { one } else { value });
             }
             done |= edge;
-            *closed = u8::from(done);
-            unknown = T::count(unknown, edge & near);
-            if ENTROPY {
-                occupied = T::count(occupied, done & (p > T::HALF));
-            }
+            let observed = if ENTROPY & (p > T::HALF) { mark::OCCUPIED } else { mark::FREE };
+            let seen = if edge & near { mark::UNKNOWN } else { observed };
+            *mark = if done { seen } else { mark::OPEN };
         }
+        let count = |of: u8| marks.iter().map(|&mark| u32::from(mark == of)).sum::<u32>().into();
         Self {
-            entropy: entropy.fixed(),
+            entropy: if ENTROPY { entropy.fixed() } else { Fixed { value: 0, exponent: 0 } },
             information: information.fixed(),
-            unknown: T::counted(unknown),
-            occupied: T::counted(occupied),
-            closed,
+            unknown: count(mark::UNKNOWN),
+            free: count(mark::FREE),
+            occupied: count(mark::OCCUPIED),
+            marks,
         }
     }
+}
+
+/// `a b + c`, in one step or in two.
+#[inline(always)]
+fn fused<T: Lane, const FUSED: bool>(a: T, b: T, c: T) -> T {
+    if FUSED { T::fused(a, b, c) } else { a * b + c }
 }
 
 /// `V` at the distance `x`, as a float and a rest of at most `2^-15` of it.
@@ -144,7 +161,7 @@ pub(super) fn value<T: Lane, const FUSED: bool, const ENTROPY: bool>(
     x: T,
     near: bool,
 ) -> (T, T) {
-    let fused = |a: T, b: T, c: T| if FUSED { T::fused(a, b, c) } else { a * b + c };
+    let fused = fused::<T, FUSED>;
     let (c, number) = T::centre(x);
     let row = (number + if near { HALF as u32 } else { 0 }) as usize % (2 * HALF);
     let (value, slope, inverse) = (table.value[row], table.slope[row], table.inverse[row]);
@@ -158,21 +175,21 @@ pub(super) fn value<T: Lane, const FUSED: bool, const ENTROPY: bool>(
     } else {
         T::one() - c
     };
-    let square = b * b;
-    // 1/(2 ln 2) times 1/2, 1/6 b, (1 + 3 b^2)/48 and so on.
+    // 1/(2 ln 2) times 1/2, -1/6 and so on.
     let unit = |numerator: f64, denominator: f64| {
         T::nearest(numerator / denominator / (2.0 * core::f64::consts::LN_2))
     };
-    let e2 = fused(square, unit(3.0, 48.0), unit(1.0, 48.0));
-    let mut sum = e2;
+    let (bb, yy, by) = (b * b, y * y, b * y);
+    let mut even = fused(bb, unit(3.0, 48.0), unit(1.0, 48.0));
+    let mut odd = unit(-1.0, 6.0);
     if T::TERMS > 3 {
-        let e3 = b * fused(square, unit(-1.0, 40.0), unit(-1.0, 40.0));
-        let e4 = fused(square, fused(square, unit(5.0, 480.0), unit(10.0, 480.0)), unit(1.0, 480.0));
-        let e5 = b * fused(square, fused(square, unit(-3.0, 672.0), unit(-10.0, 672.0)), unit(-3.0, 672.0));
-        sum = fused(y, fused(y, fused(y, e5, e4), e3), sum);
+        let e3 = fused(bb, unit(-1.0, 40.0), unit(-1.0, 40.0));
+        let e4 = fused(bb, fused(bb, unit(5.0, 480.0), unit(10.0, 480.0)), unit(1.0, 480.0));
+        let e5 = fused(bb, fused(bb, unit(-3.0, 672.0), unit(-10.0, 672.0)), unit(-3.0, 672.0));
+        even = fused(yy, e4, even);
+        odd = fused(yy, fused(yy, e5, e3), odd);
     }
-    let series = fused(y, fused(y, sum, b * unit(-1.0, 6.0)), unit(1.0, 2.0));
-    let rest = (h * y) * series;
+    let series = fused(by, odd, fused(yy, even, unit(1.0, 2.0)));
     // The product of slope and h, exactly.
     let (first, second) = if FUSED {
         let first = slope * h;
@@ -182,5 +199,5 @@ pub(super) fn value<T: Lane, const FUSED: bool, const ENTROPY: bool>(
     };
     let head = value + first;
     let lost = (value - head) + first;
-    (head, (rest + fused(slope_low, h, second)) + (lost + value_low))
+    (head, fused(h * y, series, fused(slope_low, h, second)) + (lost + value_low))
 }

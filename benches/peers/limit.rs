@@ -1,6 +1,7 @@
 //! The radial limit of one room. Arb, mpmath and QUADPACK come from `limit.py`, a child process.
 
-use crate::timing::{Timed, output_of, python, timed};
+use crate::program::{Timed, output_of, python};
+use crate::timing::least_time;
 use mean_information::limit::{Weight, adaptive, closed_form, rigorous};
 use mean_information::quadrature::adaptive::{GaussKronrod, Rule};
 use mean_information::quadrature::rigorous::Rigorous;
@@ -21,10 +22,9 @@ struct Limit {
 }
 
 fn row(method: &str, call: impl Fn() -> (f64, f64, u64)) -> Timed<Limit> {
-    timed(method, 0.1, || {
-        let (value, error, evaluations) = call();
-        Limit { value, error, evaluations }
-    })
+    let (value, error, evaluations) = call();
+    let result = Limit { value, error, evaluations };
+    Timed { method: method.to_owned(), seconds: least_time(0.1, call), result }
 }
 
 /// From a line of the child.

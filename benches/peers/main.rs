@@ -7,6 +7,7 @@
 
 mod limit;
 mod maps;
+mod program;
 mod timing;
 
 fn main() {

@@ -1,7 +1,7 @@
 //! What is measured of a map, and whether it means anything.
 
 use crate::cell_cache::CellCache;
-use crate::maps::{Cells, with_grid};
+use crate::maps::{Cells, Contents, Counted, with_grid};
 use crate::output::{Number, Value};
 use mean_information::cell::Cell;
 use mean_information::map::{Encoding, Grid};
@@ -41,19 +41,35 @@ impl Measures {
         Self::of_tally(grid, &tally_of(grid))
     }
 
+    /// Measures what was read of a map.
+    pub fn of_contents(contents: &Contents) -> Self {
+        match contents {
+            Contents::Cells(cells) => Self::of(cells),
+            Contents::Counted(Counted { width, height, tally, marked }) => {
+                Self::new([*width, *height], tally, || *marked)
+            }
+        }
+    }
+
     /// The measures of a grid whose sums are known.
     pub fn of_tally<E: Encoding>(grid: &Grid<E>, tally: &Tally<E::Float>) -> Self {
+        let marked = || grid.cells().iter().any(|&stored| stored == E::unknown());
+        Self::new([grid.width(), grid.height()], tally, marked)
+    }
+
+    /// With whether a cell is marked as unknown, not only as `p = 1/2`.
+    fn new<T: Real>([width, height]: [usize; 2], tally: &Tally<T>, marked: impl FnOnce() -> bool) -> Self {
         let observed = tally.observed() > 0;
         Self {
-            width: grid.width(),
-            height: grid.height(),
+            width,
+            height,
             mean_information: observed.then(|| Number::new(tally.mean_information())),
             information: Number::new(tally.information()),
             entropy: Number::new(tally.entropy()),
             unknown: tally.unknown(),
             free: tally.free(),
             occupied: tally.occupied(),
-            doubt: Doubt::about(grid, tally),
+            doubt: Doubt::about(tally, marked),
         }
     }
 
@@ -107,16 +123,15 @@ pub enum Doubt {
 }
 
 impl Doubt {
-    fn about<E: Encoding>(grid: &Grid<E>, tally: &Tally<E::Float>) -> Option<Self> {
-        let cells = grid.cells();
+    fn about<T: Real>(tally: &Tally<T>, marked: impl FnOnce() -> bool) -> Option<Self> {
         if tally.observed() > 0 {
             is_thresholded(tally).then_some(Self::Thresholded)
-        } else if cells.is_empty() {
+        } else if tally.cells() == 0 {
             Some(Self::NoCells)
-        } else if cells.iter().all(|&stored| stored != E::unknown()) {
-            Some(Self::AllFiftyPercent)
-        } else {
+        } else if marked() {
             Some(Self::NothingObserved)
+        } else {
+            Some(Self::AllFiftyPercent)
         }
     }
 

@@ -8,7 +8,7 @@ use crate::output::{Files, Number, Record, Report, Value, Writing, short, table,
 use crate::plots::{self, HeatMap};
 use crate::progress::Progress;
 use clap::Args;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// The arguments of `meaninfo map`.
 #[derive(Args, Debug)]
@@ -41,18 +41,17 @@ impl Arguments {
         let progress = Progress::new(self.maps.len());
         for path in &self.maps {
             progress.begin(&path.display().to_string());
-            let map = maps::read(path, &self.reading)?;
-            let row = MeasuredMap::new(path.display().to_string(), &map);
-            if let Some(picture) = &self.heat_map {
-                if row.measures.doubt == Some(Doubt::NoCells) {
-                    return Err(
-                        Problem::new(path, "the map has no cells to draw; leave out --heat-map").into()
-                    );
-                }
-                let titles = [plots::title(path), row.measures.summary()];
-                files.add(picture, HeatMap::new(&map).to_png(&titles)?);
-            }
-            files.read(map.files);
+            // Only a picture needs the cells themselves.
+            let row = if let Some(picture) = &self.heat_map {
+                let map = maps::read(path, &self.reading)?;
+                let measures = Measures::of(&map.cells);
+                files.add(picture, drawn(path, &map, &measures)?);
+                MeasuredMap::new(path, map, measures, &mut files)
+            } else {
+                let map = maps::read_contents(path, &self.reading)?;
+                let measures = Measures::of_contents(&map.cells);
+                MeasuredMap::new(path, map, measures, &mut files)
+            };
             measured.push(row);
             progress.done();
         }
@@ -60,6 +59,14 @@ impl Arguments {
         self.writing.write(&MeasuredMaps(measured), files)?;
         Ok(Status::Done)
     }
+}
+
+/// The heat map of a map.
+fn drawn(path: &Path, map: &Map, measures: &Measures) -> Result<Vec<u8>, Failure> {
+    if measures.doubt == Some(Doubt::NoCells) {
+        return Err(Problem::new(path, "the map has no cells to draw; leave out --heat-map").into());
+    }
+    HeatMap::new(map).to_png(&[plots::title(path), measures.summary()])
 }
 
 /// One row of the result.
@@ -71,11 +78,11 @@ struct MeasuredMap {
 }
 
 impl MeasuredMap {
-    fn new(name: String, map: &Map) -> Self {
-        let measures = Measures::of(&map.cells);
-        let mut warnings = map.warnings.clone();
+    fn new<C>(path: &Path, map: Map<C>, measures: Measures, files: &mut Files) -> Self {
+        files.read(map.files);
+        let mut warnings = map.warnings;
         warnings.extend(measures.doubt.map(|doubt| doubt.warning().to_owned()));
-        Self { name, resolution: map.resolution, measures, warnings }
+        Self { name: path.display().to_string(), resolution: map.resolution, measures, warnings }
     }
 
     fn record(&self) -> Record {

@@ -1,5 +1,6 @@
 //! A map's cells, whatever their encoding.
 
+use mean_information::Tally;
 use mean_information::map::encoding::{LogOdds, MrptLogOdds, Percent, Probability};
 use mean_information::map::{Encoding, Grid};
 
@@ -18,6 +19,51 @@ pub enum Cells {
     LogOdds32(Grid<LogOdds<f32>>),
     /// Log-odds in double precision.
     LogOdds64(Grid<LogOdds<f64>>),
+}
+
+/// What is measured of a map: its cells, or how often each value occurs.
+#[derive(Clone, Debug)]
+pub enum Contents {
+    /// Its cells.
+    Cells(Cells),
+    /// Its values.
+    Counted(Counted),
+}
+
+impl From<Cells> for Contents {
+    fn from(cells: Cells) -> Self {
+        Self::Cells(cells)
+    }
+}
+
+/// A map whose cells were counted and not kept.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Counted {
+    /// Columns.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// The sums over its cells.
+    pub tally: Tally<f64>,
+    /// Whether a cell is marked as unknown, not only as `p = 1/2`.
+    pub marked: bool,
+}
+
+impl Counted {
+    /// From how often each stored value occurs.
+    pub(super) fn new<E: Encoding<Float = f64>>(
+        width: usize,
+        height: usize,
+        values: &[(E::Stored, u64)],
+    ) -> Self {
+        let mut tally = Tally::new();
+        for &(stored, count) in values {
+            if let Some(cell) = E::cell(stored) {
+                tally.add_many(cell, count);
+            }
+        }
+        Self { width, height, tally, marked: values.iter().any(|&(stored, _)| stored == E::unknown()) }
+    }
 }
 
 /// An encoding that files come in.

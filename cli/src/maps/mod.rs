@@ -10,7 +10,7 @@ mod problem;
 pub mod ros;
 mod size;
 
-pub use cells::{Cells, Readable, with_grid};
+pub use cells::{Cells, Contents, Counted, Readable, with_grid};
 pub use options::{ArrayEncoding, MAX_CELLS, Mode, Options, Semantics};
 pub(crate) use problem::one_line;
 pub use problem::{Fault, Problem};
@@ -21,9 +21,9 @@ use std::path::{Path, PathBuf};
 
 /// A map read from a file.
 #[derive(Clone, Debug)]
-pub struct Map {
+pub struct Map<C = Cells> {
     /// Its cells.
-    pub cells: Cells,
+    pub cells: C,
     /// The side of a cell in metres; `None` if the file does not say.
     pub resolution: Option<f64>,
     /// What the reader noticed that makes the map mean less than it seems.
@@ -32,12 +32,32 @@ pub struct Map {
     pub files: Vec<PathBuf>,
 }
 
+impl Map {
+    /// With its cells as they are asked for.
+    fn with<C: From<Cells>>(self) -> Map<C> {
+        let Self { cells, resolution, warnings, files } = self;
+        Map { cells: cells.into(), resolution, warnings, files }
+    }
+}
+
 /// Reads the map at `path`, by its file name ending: `.yaml`/`.yml`, `.npy`, `.gridmap`, `.gridmap.gz`.
 ///
 /// # Errors
 /// A [`Problem`] naming the file, what is wrong and what is allowed; also for a grey level for unknown outside
 /// probability mode.
 pub fn read(path: &Path, options: &Options) -> Result<Map, Problem> {
+    read_as(path, options)
+}
+
+/// Reads the map at `path` to measure it: as [`read`], but the cells of images are counted and not kept.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_contents(path: &Path, options: &Options) -> Result<Map<Contents>, Problem> {
+    read_as(path, options)
+}
+
+fn read_as<C: From<Cells> + ros::Keep>(path: &Path, options: &Options) -> Result<Map<C>, Problem> {
     if options.unknown.is_some() && options.mode != Some(Mode::Probability) {
         return Err(Problem::new(path, "--unknown needs --mode probability; give both or neither"));
     }
@@ -47,10 +67,10 @@ pub fn read(path: &Path, options: &Options) -> Result<Map, Problem> {
     let mut map = if is(&[".yaml", ".yml"]) {
         ros::read(path, file, options)?
     } else if is(&[".npy"]) {
-        npy::read(file, length, options).map_err(|fault| fault.in_file(path))?
+        npy::read(file, length, options).map_err(|fault| fault.in_file(path))?.with()
     } else if is(&[".gridmap", ".gridmap.gz"]) {
         let input = BufReader::with_capacity(size::CHUNK, file);
-        gridmap::read(input, options).map_err(|fault| fault.in_file(path))?
+        gridmap::read(input, options).map_err(|fault| fault.in_file(path))?.with()
     } else if is(&[".pgm", ".png"]) {
         return Err(Problem::new(
             path,

@@ -1,7 +1,7 @@
 //! `.npy` arrays written here: every element, byte order, memory order and encoding.
 
-use crate::support::{Folder, measure, npy, refusal};
-use mean_information_cli::maps::{self, ArrayEncoding, Cells, Options};
+use crate::support::{Folder, measure, npy, read_twice, refusal};
+use mean_information_cli::maps::{ArrayEncoding, Cells, Options};
 
 /// How a number is stored.
 type Bytes = fn(f64) -> Vec<u8>;
@@ -32,7 +32,7 @@ fn floats_of_both_sizes_byte_orders_and_memory_orders() {
         for fortran_order in [false, true] {
             let path =
                 folder.write("map.npy", npy(descr, fortran_order, "(2, 3)", &data(fortran_order, bytes)));
-            let map = maps::read(&path, &Options { resolution: Some(0.125), ..Options::default() }).unwrap();
+            let map = read_twice(&path, &Options { resolution: Some(0.125), ..Options::default() }).unwrap();
             assert_eq!(map.resolution, Some(0.125));
             let cells: Vec<f64> = match map.cells {
                 Cells::Probability64(grid) => {
@@ -45,7 +45,7 @@ fn floats_of_both_sizes_byte_orders_and_memory_orders() {
             assert_eq!(cells, CELLS.concat(), "{descr} {fortran_order}");
 
             let options = Options { encoding: Some(ArrayEncoding::LogOdds), ..Options::default() };
-            let log_odds = maps::read(&path, &options).unwrap();
+            let log_odds = read_twice(&path, &options).unwrap();
             // Of log-odds, only 0 is unknown.
             assert_eq!((measure(&log_odds).unknown, measure(&log_odds).occupied), (1, 5));
             assert_eq!(log_odds.resolution, None);
@@ -58,10 +58,10 @@ fn bytes_are_percentages_unless_they_are_said_to_be_mrpt_s() {
     let folder = Folder::new();
     let bytes = [0_i8, 100, -1, 50, 7, 93].map(i8::cast_unsigned);
     let path = folder.write("map.npy", npy("'|i1'", false, "(3, 2)", &bytes));
-    let percent = measure(&maps::read(&path, &Options::default()).unwrap());
+    let percent = measure(&read_twice(&path, &Options::default()).unwrap());
     assert_eq!((percent.free, percent.occupied, percent.unknown), (2, 2, 2));
     let options = Options { encoding: Some(ArrayEncoding::Mrpt), ..Options::default() };
-    let mrpt = measure(&maps::read(&path, &options).unwrap());
+    let mrpt = measure(&read_twice(&path, &options).unwrap());
     // Positive is free.
     assert_eq!((mrpt.free, mrpt.occupied, mrpt.unknown), (4, 1, 1));
 }
@@ -75,7 +75,7 @@ fn newer_versions_of_the_format() {
         bytes.extend((header.len() as u32).to_le_bytes());
         bytes.extend(header);
         bytes.extend(data(false, |x| x.to_le_bytes().to_vec()));
-        let map = maps::read(&folder.write("map.npy", bytes), &Options::default()).unwrap();
+        let map = read_twice(&folder.write("map.npy", bytes), &Options::default()).unwrap();
         assert_eq!((measure(&map).free, measure(&map).occupied, measure(&map).unknown), (3, 2, 1));
     }
 }
@@ -85,7 +85,7 @@ fn no_cells_are_a_map_of_no_cells() {
     let folder = Folder::new();
     for (order, shape) in [(false, "(0, 5)"), (true, "(5, 0)")] {
         let path = folder.write("map.npy", npy("'<f8'", order, shape, &[]));
-        let measured = measure(&maps::read(&path, &Options::default()).unwrap());
+        let measured = measure(&read_twice(&path, &Options::default()).unwrap());
         assert_eq!((measured.mean_information, measured.width * measured.height), (0.0, 0));
     }
 }

@@ -1,7 +1,7 @@
 //! ROS maps and file names that must be refused, with the file, what is wrong and what is allowed.
 
 use crate::png_bytes::{raw_png, zlib};
-use crate::support::{Folder, pgm, refusal, refusal_of, yaml};
+use crate::support::{Folder, pgm, read_twice, refusal, refusal_of, yaml};
 use mean_information_cli::maps::{Mode, Options, Semantics};
 use std::fs;
 
@@ -209,8 +209,7 @@ fn the_limit_on_cells_can_be_raised_and_lowered() {
     let folder = Folder::new();
     folder.write("image.pgm", pgm(3, 5, 255, &[0; 15]));
     let map = folder.write("map.yaml", yaml("image.pgm", "negate: 0\n"));
-    let read =
-        |max_cells| mean_information_cli::maps::read(&map, &Options { max_cells, ..Options::default() });
+    let read = |max_cells| read_twice(&map, &Options { max_cells, ..Options::default() });
     assert!(read(15).is_ok());
     assert!(read(14).unwrap_err().to_string().contains("3 x 5 = 15 cells, more than the limit of 14"));
 }

@@ -1,9 +1,9 @@
 //! MRPT grid maps written here: every version, and the ways to break one.
 
-use crate::support::{Folder, Measured, measure, probabilities, refusal};
+use crate::support::{Folder, Measured, measure, probabilities, read_twice, refusal};
 use flate2::Compression;
 use flate2::write::GzEncoder;
-use mean_information_cli::maps::{self, Cells, Options};
+use mean_information_cli::maps::{Cells, Options};
 use std::io::Write;
 
 /// A grid map of 3 x 2 cells of 0.25 m, whose options are some bytes.
@@ -64,7 +64,7 @@ fn every_version_plain_and_zipped() {
                 ("zipped.gridmap", gzip(&bytes)),
                 ("two.gridmap.gz", [gzip(&bytes[..60]), gzip(&bytes[60..])].concat()),
             ] {
-                let map = maps::read(&folder.write(file, bytes), &Options::default()).unwrap();
+                let map = read_twice(&folder.write(file, bytes), &Options::default()).unwrap();
                 assert_eq!(map.resolution, Some(0.25));
                 let Cells::Mrpt(grid) = &map.cells else { panic!("{map:?}") };
                 assert_eq!((grid.width(), grid.height(), grid.geometry().origin()), (3, 2, [-0.5, 2.0]));
@@ -81,11 +81,11 @@ fn every_version_plain_and_zipped() {
 fn version_2_holds_probabilities_of_free() {
     let folder = Folder::new();
     let old = GridMap { version: 2, cells: vec![0, 51, 127, 128, 129, 255], ..GridMap::small() };
-    let map = maps::read(&folder.write("map.gridmap", old.bytes()), &Options::default()).unwrap();
+    let map = read_twice(&folder.write("map.gridmap", old.bytes()), &Options::default()).unwrap();
     assert_eq!(probabilities(&map), [1.0, 0.8, 0.5, 0.5, 126.0 / 255.0, 0.0]);
     assert!(map.warnings[0].starts_with("2 cells of 127 or 128"), "{:?}", map.warnings);
     let old = GridMap { cells: vec![0, 51, 127, 5, 129, 255], ..old };
-    let map = maps::read(&folder.write("map.gridmap", old.bytes()), &Options::default()).unwrap();
+    let map = read_twice(&folder.write("map.gridmap", old.bytes()), &Options::default()).unwrap();
     assert!(map.warnings[0].starts_with("1 cell of 127 or 128"), "{:?}", map.warnings);
 }
 
@@ -97,7 +97,7 @@ fn an_extent_is_that_of_its_cells_to_half_a_cell() {
         for axis in [1, 3] {
             let mut map = GridMap::small();
             map.place[axis] += 0.25 * excess;
-            let read = maps::read(&folder.write("map.gridmap", map.bytes()), &Options::default());
+            let read = read_twice(&folder.write("map.gridmap", map.bytes()), &Options::default());
             assert_eq!(read.is_ok(), allowed, "{excess} cells along axis {axis}");
         }
     }

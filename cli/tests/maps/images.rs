@@ -3,8 +3,8 @@
 use crate::png_bytes::{raw_png, zlib};
 use crate::png_kinds::{Kind, SIZE};
 use crate::rules::{Rule, read_with, rules};
-use crate::support::{Folder, Random, percents, pgm, probabilities, yaml};
-use mean_information_cli::maps::{self, Mode, Options, Semantics};
+use crate::support::{Folder, Random, percents, pgm, probabilities, read_twice, yaml};
+use mean_information_cli::maps::{Cells, Mode, Options, Semantics};
 use std::borrow::Cow;
 
 /// The pixels in the order of the grid's cells: the lowest image row first.
@@ -192,12 +192,12 @@ fn text_in_a_png_is_passed_over() {
 fn yaml_spellings() {
     let folder = Folder::new();
     folder.write("image.pgm", pgm(3, 2, 255, &[0, 255, 205, 10, 20, 30]));
-    let read = |text: String| maps::read(&folder.write("map.yml", text), &Options::default());
+    let read = |text: String| read_twice(&folder.write("map.yml", text), &Options::default());
     let plain = read(yaml("image.pgm", "negate: 0\n")).unwrap();
     assert_eq!(plain.resolution, Some(0.05));
     assert_eq!(percents(&plain), [100, 100, 100, 100, 0, -1]);
     let geometry = match &plain.cells {
-        maps::Cells::Percent(grid) => *grid.geometry(),
+        Cells::Percent(grid) => *grid.geometry(),
         other => panic!("{other:?}"),
     };
     assert_eq!((geometry.origin(), geometry.yaw()), ([-3.5, 2.25], 0.125));

@@ -1,10 +1,10 @@
 //! Real maps and their independently computed numbers, where the folder with them is present.
 
-use crate::support::{measure, percents};
+use crate::support::{measure, percents, read_twice};
 use mean_information::cell::{self, Cell, State};
 use mean_information::map::Encoding;
 use mean_information::map::encoding::MrptLogOdds;
-use mean_information_cli::maps::{self, Mode, Options, Semantics};
+use mean_information_cli::maps::{ArrayEncoding, Mode, Options, Semantics};
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -46,7 +46,7 @@ fn ros_maps_give_the_counts_and_the_mean_information_of_both_loaders() {
             ("nav2_raw", Semantics::Nav2, Some(Mode::Raw)),
         ] {
             let read =
-                maps::read(&data.join(name), &Options { semantics, mode, ..Options::default() }).unwrap();
+                read_twice(&data.join(name), &Options { semantics, mode, ..Options::default() }).unwrap();
             let numbers = &map[key];
             let count = |key: &str| numbers[key].as_u64().unwrap();
             let measured = measure(&read);
@@ -96,10 +96,10 @@ fn grey_205_read_as_free_is_said_with_its_count() {
     let Some(data) = data() else { return };
     for semantics in [Semantics::Nav2, Semantics::Ros1] {
         let options = Options { semantics, ..Options::default() };
-        let depot = maps::read(&data.join("nav2/depot.yaml"), &options).unwrap();
+        let depot = read_twice(&data.join("nav2/depot.yaml"), &options).unwrap();
         assert_eq!(depot.warnings.len(), 1);
         assert!(depot.warnings[0].starts_with("8894 cells of grey 205"), "{:?}", depot.warnings);
-        let sandbox = maps::read(&data.join("nav2/tb3_sandbox.yaml"), &options).unwrap();
+        let sandbox = read_twice(&data.join("nav2/tb3_sandbox.yaml"), &options).unwrap();
         assert_eq!(sandbox.warnings, [""; 0]);
     }
 }
@@ -108,7 +108,7 @@ fn grey_205_read_as_free_is_said_with_its_count() {
 fn a_yaml_whose_image_is_absent_is_refused_by_the_image_s_name() {
     let Some(data) = data() else { return };
     let refused =
-        maps::read(&data.join("nav2/invalid_image.yaml"), &Options::default()).unwrap_err().to_string();
+        read_twice(&data.join("nav2/invalid_image.yaml"), &Options::default()).unwrap_err().to_string();
     assert!(refused.contains("invalid.png: cannot be read"), "{refused}");
 }
 
@@ -116,7 +116,7 @@ fn a_yaml_whose_image_is_absent_is_refused_by_the_image_s_name() {
 fn the_uwb_grid_map() {
     let Some(data) = data() else { return };
     let map =
-        maps::read(&data.join("mrpt/uwb_ro-localization_demo_map.gridmap.gz"), &Options::default()).unwrap();
+        read_twice(&data.join("mrpt/uwb_ro-localization_demo_map.gridmap.gz"), &Options::default()).unwrap();
     let measured = measure(&map);
     assert_eq!((measured.width, measured.height), (700, 650));
     assert_eq!(map.resolution, Some(f64::from(0.04_f32)));
@@ -155,8 +155,8 @@ fn a_log_odds_array_that_mrpt_averaged() {
             &fs::read_to_string(data.join(format!("emmi/{step}_expected.json"))).unwrap(),
         )
         .unwrap();
-        let options = Options { encoding: Some(maps::ArrayEncoding::Mrpt), ..Options::default() };
-        let map = maps::read(&data.join(format!("emmi/{step}_mrpt_average.npy")), &options).unwrap();
+        let options = Options { encoding: Some(ArrayEncoding::Mrpt), ..Options::default() };
+        let map = read_twice(&data.join(format!("emmi/{step}_mrpt_average.npy")), &options).unwrap();
         let average = &expected["mrpt_logodds_average"];
         let measured = measure(&map);
         assert_eq!(measured.free + measured.occupied, average["N"].as_u64().unwrap());

@@ -1,7 +1,7 @@
 //! The loaders' rules, restated: from the samples of a pixel to a percentage.
 
-use crate::support::Folder;
-use mean_information_cli::maps::{self, Map, Mode, Options};
+use crate::support::{Folder, read_twice};
+use mean_information_cli::maps::{Map, Mode, Options};
 
 /// Thresholds, and whether white is occupied.
 #[derive(Clone, Copy)]
@@ -77,5 +77,5 @@ pub(crate) fn read_with(folder: &Folder, image: &str, rule: Rule, options: &Opti
         rule.occupied,
         rule.free
     );
-    maps::read(&folder.write("map.yaml", text), options).unwrap()
+    read_twice(&folder.write("map.yaml", text), options).unwrap()
 }

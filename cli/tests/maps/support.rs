@@ -1,7 +1,8 @@
 //! Files written by the tests, and what was read from them.
 
 use mean_information::map::{Encoding, Grid};
-use mean_information_cli::maps::{self, Cells, Map, Options};
+use mean_information_cli::maps::{self, Cells, Map, Options, Problem};
+use mean_information_cli::measures::Measures;
 use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
@@ -32,9 +33,29 @@ pub(crate) fn refusal(name: &str, bytes: impl AsRef<[u8]>, options: &Options) ->
 }
 
 pub(crate) fn refusal_of(path: &Path, options: &Options) -> String {
-    let line = maps::read(path, options).expect_err("must be refused").to_string();
+    let line = read_twice(path, options).expect_err("must be refused").to_string();
     assert!(!line.contains('\n'), "{line}");
     line
+}
+
+/// Reads the cells of a map; then only what is measured, as `meaninfo map` does. Both must say the same.
+pub(crate) fn read_twice(path: &Path, options: &Options) -> Result<Map, Problem> {
+    let kept = maps::read(path, options);
+    match (&kept, maps::read_contents(path, options)) {
+        (Ok(kept), Ok(counted)) => {
+            assert_eq!(
+                Measures::of(&kept.cells),
+                Measures::of_contents(&counted.cells),
+                "{}",
+                path.display()
+            );
+            assert_eq!(kept.warnings, counted.warnings);
+            assert_eq!((kept.resolution, &kept.files), (counted.resolution, &counted.files));
+        }
+        (Err(kept), Err(counted)) => assert_eq!(kept.to_string(), counted.to_string()),
+        (kept, counted) => panic!("{}: {kept:?}, but {counted:?}", path.display()),
+    }
+    kept
 }
 
 /// A yaml file with the usual thresholds and these further lines.

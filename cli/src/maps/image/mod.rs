@@ -65,6 +65,17 @@ impl Layout {
         }
     }
 
+    /// That there are as many pixels as the header claims.
+    ///
+    /// # Errors
+    /// A [`Fault`] with both numbers.
+    pub(crate) fn require(&self, pixels: u64) -> Result<(), Fault> {
+        match self.size.cells() {
+            claimed if pixels == claimed as u64 => Ok(()),
+            claimed => Err(Fault::new(format!("holds {pixels} pixels, its header claims {claimed}"))),
+        }
+    }
+
     /// Bytes per pixel.
     pub(crate) fn pixel_bytes(&self) -> usize {
         self.sample_bytes() * self.channels.count()

@@ -9,7 +9,7 @@ use std::io::{BufRead, Seek};
 
 /// A grey that may not mean what it is read as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Suspect {
+pub(crate) enum Suspect {
     /// In raw mode, neither a percentage nor unknown.
     OutOfRange,
     /// The grey that map savers write for unknown, read as this percentage.

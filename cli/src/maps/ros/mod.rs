@@ -1,8 +1,10 @@
 //! ROS maps: a yaml file that describes an image, the loaders' rules that turn grey levels into cells, and cells into grey
 //! levels that they read as they were meant.
 
+mod counting;
 mod description;
 mod doubts;
+mod keep;
 mod nav2;
 mod probability;
 mod ros1;
@@ -10,15 +12,13 @@ mod saving;
 mod shading;
 
 pub use description::Description;
+pub(in crate::maps) use keep::Keep;
 pub use saving::{QUANTISATION, SavedMap, save};
 
 use super::image::{Colours, Image};
-use super::size::Size;
-use super::{Cells, Fault, Map, Mode, Options, Problem, Semantics};
+use super::{Fault, Map, Mode, Options, Problem, Semantics};
 use doubts::Suspect;
-use mean_information::map::Grid;
 use mean_information::map::encoding::{Percent, Probability};
-use shading::paint;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Seek};
 use std::path::Path;
@@ -27,11 +27,11 @@ use std::path::Path;
 const SAVED_UNKNOWN: u8 = 205;
 
 /// Reads the map that the yaml file at `path` describes.
-pub(super) fn read(path: &Path, file: File, options: &Options) -> Result<Map, Problem> {
+pub(super) fn read<K: Keep>(path: &Path, file: File, options: &Options) -> Result<Map<K>, Problem> {
     let description = Description::read(file, options.semantics).map_err(|fault| fault.in_file(path))?;
     let image = path.parent().unwrap_or(Path::new("")).join(&description.image);
     let (file, _) = super::open(&image)?;
-    let mut map = read_image(BufReader::with_capacity(super::size::CHUNK, file), &description, options)
+    let mut map = keep_image(BufReader::with_capacity(super::size::CHUNK, file), &description, options)
         .map_err(|fault| fault.in_file(&image))?;
     map.files.push(image);
     Ok(map)
@@ -46,6 +46,14 @@ pub fn read_image(
     description: &Description,
     options: &Options,
 ) -> Result<Map, Fault> {
+    keep_image(input, description, options)
+}
+
+fn keep_image<K: Keep>(
+    input: impl BufRead + Seek,
+    description: &Description,
+    options: &Options,
+) -> Result<Map<K>, Fault> {
     let mode = options.mode.unwrap_or(description.mode);
     let colours = match (mode, options.semantics) {
         (Mode::Probability, _) => Colours::Meant,
@@ -57,21 +65,17 @@ pub fn read_image(
     let [x, y, yaw] = description.origin;
     let geometry = layout.size.placed(description.resolution, [x, y], yaw)?;
 
-    let Size { width, height } = layout.size;
     let mut warnings = Vec::new();
     let (cells, suspects) = if mode == Mode::Probability {
         let shading = probability::shading(description, &layout, options.unknown)?;
-        let (cells, suspects) = paint(image, &shading)?;
-        let grid = Grid::<Probability<f64>>::new(width, height, geometry, cells)?;
-        (Cells::Probability64(grid), suspects)
+        K::keep::<Probability<f64>>(image, &shading, geometry)?
     } else {
         let shading = match options.semantics {
             Semantics::Nav2 => nav2::shading(description, mode, &layout),
             Semantics::Ros1 => ros1::shading(description, mode, &layout),
         };
         warnings.extend(doubts::of_image(options.semantics, &image));
-        let (cells, suspects) = paint(image, &shading)?;
-        (Cells::Percent(Grid::<Percent>::new(width, height, geometry, cells)?), suspects)
+        K::keep::<Percent>(image, &shading, geometry)?
     };
     let spoken_of = |(suspect, count): (Suspect, u64)| suspect.warning(count, &layout, mode, description);
     warnings.extend(suspects.into_iter().filter_map(spoken_of));

@@ -11,7 +11,7 @@ use std::io::{BufRead, Seek};
 use std::ops::Range;
 
 /// How pixels of one layout become cells.
-pub(super) struct Shading<C> {
+pub(crate) struct Shading<C> {
     weights: [u32; 4],
     /// Cells by the weighted sum of samples.
     opaque: Vec<C>,
@@ -56,19 +56,20 @@ impl<C: Copy> Shading<C> {
 
     /// Appends the cells of some pixels, and counts the watched ones.
     fn extend(&self, cells: &mut Vec<C>, counts: &mut [u64], layout: &Layout, pixels: &[u8]) {
-        match (layout.sample_bytes(), layout.channels.count()) {
-            (1, 1) => match <&[C; 256]>::try_from(self.opaque.as_slice()) {
-                Ok(table) => self.extend_by(table, cells, counts, pixels),
-                Err(_) => self.extend_from::<1, 1>(cells, counts, pixels),
-            },
-            (1, 2) => self.extend_from::<2, 1>(cells, counts, pixels),
-            (1, 3) => self.extend_from::<3, 1>(cells, counts, pixels),
-            (1, _) => self.extend_from::<4, 1>(cells, counts, pixels),
-            (_, 1) => self.extend_from::<2, 2>(cells, counts, pixels),
-            (_, 2) => self.extend_from::<4, 2>(cells, counts, pixels),
-            (_, 3) => self.extend_from::<6, 2>(cells, counts, pixels),
-            (_, _) => self.extend_from::<8, 2>(cells, counts, pixels),
+        if layout.pixel_bytes() == 1
+            && let Ok(table) = <&[C; 256]>::try_from(self.opaque.as_slice())
+        {
+            return self.extend_by(table, cells, counts, pixels);
         }
+        self.places(layout, pixels, |place| {
+            let Place::Opaque(index) = place else {
+                return cells.push(self.cell(place));
+            };
+            for (count, (_, sums)) in counts.iter_mut().zip(&self.watched) {
+                *count += u64::from(sums.contains(&index));
+            }
+            cells.push(self.opaque[index]);
+        });
     }
 
     /// Pixels that are their own index.
@@ -82,29 +83,64 @@ impl<C: Copy> Shading<C> {
         }
     }
 
+    /// The cell of a place in the tables.
+    pub(super) fn cell(&self, place: Place) -> C {
+        match place {
+            Place::Opaque(index) => self.opaque[index],
+            Place::Clear(index) => self.clear[index],
+        }
+    }
+
+    /// The lengths of both tables.
+    pub(super) fn lengths(&self) -> [usize; 2] {
+        [self.opaque.len(), self.clear.len()]
+    }
+
+    /// What is counted, and the places of it in the first table.
+    pub(super) fn watched(&self) -> &[(Suspect, Range<usize>)] {
+        &self.watched
+    }
+
+    /// Where the cells of some pixels are in the tables, one after the other.
+    pub(super) fn places(&self, layout: &Layout, pixels: &[u8], each: impl FnMut(Place)) {
+        match (layout.sample_bytes(), layout.channels.count()) {
+            (1, 1) => self.places_from::<1, 1>(pixels, each),
+            (1, 2) => self.places_from::<2, 1>(pixels, each),
+            (1, 3) => self.places_from::<3, 1>(pixels, each),
+            (1, _) => self.places_from::<4, 1>(pixels, each),
+            (_, 1) => self.places_from::<2, 2>(pixels, each),
+            (_, 2) => self.places_from::<4, 2>(pixels, each),
+            (_, 3) => self.places_from::<6, 2>(pixels, each),
+            (_, _) => self.places_from::<8, 2>(pixels, each),
+        }
+    }
+
     /// Pixels of `PIXEL` bytes with samples of `SAMPLE` bytes, the high one first.
-    fn extend_from<const PIXEL: usize, const SAMPLE: usize>(
+    fn places_from<const PIXEL: usize, const SAMPLE: usize>(
         &self,
-        cells: &mut Vec<C>,
-        counts: &mut [u64],
         pixels: &[u8],
+        mut each: impl FnMut(Place),
     ) {
-        cells.extend(pixels.as_chunks::<PIXEL>().0.iter().map(|pixel| {
+        for pixel in pixels.as_chunks::<PIXEL>().0 {
             let (mut sum, mut last) = (0, 0);
             for (sample, weight) in pixel.as_chunks::<SAMPLE>().0.iter().zip(self.weights) {
                 last = sample.iter().fold(0, |high, &low| high << 8 | u32::from(low));
                 sum += weight * last;
             }
             let index = sum as usize;
-            if last < u32::from(self.opaque_from) {
-                return self.clear[index];
-            }
-            for (count, (_, sums)) in counts.iter_mut().zip(&self.watched) {
-                *count += u64::from(sums.contains(&index));
-            }
-            self.opaque[index]
-        }));
+            let clear = last < u32::from(self.opaque_from);
+            each(if clear { Place::Clear(index) } else { Place::Opaque(index) });
+        }
     }
+}
+
+/// A place in a table, by the weighted sum of a pixel's samples.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Place {
+    /// In that of opaque pixels.
+    Opaque(usize),
+    /// In that of others.
+    Clear(usize),
 }
 
 /// The cells of an image, the lowest row first, and how many of them were watched, by the reason.
@@ -124,9 +160,7 @@ pub(super) fn paint<C: Copy, R: BufRead + Seek>(
         shading.extend(&mut cells, &mut counts, &layout, pixels);
         Ok(())
     })?;
-    if cells.len() != total {
-        return Err(Fault::new(format!("holds {} pixels, its header claims {total}", cells.len())));
-    }
+    layout.require(cells.len() as u64)?;
     turn_over(&mut cells, layout.size.width);
     let reasons = shading.watched.iter().map(|&(suspect, _)| suspect);
     Ok((cells, reasons.zip(counts).collect()))

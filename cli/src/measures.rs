@@ -45,7 +45,8 @@ impl Measures {
     pub fn of_contents(contents: &Contents) -> Self {
         match contents {
             Contents::Cells(cells) => Self::of(cells),
-            Contents::Counted(Counted { width, height, tally, marked }) => {
+            Contents::Counted(counted) => {
+                let Counted { width, height, tally, marked } = &**counted;
                 Self::new([*width, *height], tally, || *marked)
             }
         }

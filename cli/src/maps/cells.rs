@@ -27,7 +27,7 @@ pub enum Contents {
     /// Its cells.
     Cells(Cells),
     /// Its values.
-    Counted(Counted),
+    Counted(Box<Counted>),
 }
 
 impl From<Cells> for Contents {

@@ -5,6 +5,7 @@ use super::shading::{Place, Shading};
 use crate::maps::Fault;
 use crate::maps::image::{Image, Layout};
 use std::io::{BufRead, Seek};
+use std::ops::Range;
 
 /// Pixels are counted in so many lanes in turn: equal neighbours would wait for each other.
 const LANES: usize = 4;
@@ -46,7 +47,7 @@ impl Counts {
 fn extend_by(table: &mut [[u64; LANES]; 256], pixels: &[u8]) {
     let (runs, rest) = pixels.as_chunks::<RUN>();
     for run in runs {
-        if run.iter().fold(true, |equal, &pixel| equal & (pixel == run[0])) {
+        if *run == [run[0]; RUN] {
             table[usize::from(run[0])][0] += RUN as u64;
             continue;
         }
@@ -78,7 +79,23 @@ pub(super) fn count<C: Copy, R: BufRead + Seek>(
     let found: u64 = counts.present().map(|(_, count)| count).sum();
     layout.require(found)?;
     let cells = counts.present().map(|(place, count)| (shading.cell(place), count)).collect();
-    let of_opaque = |sums: &std::ops::Range<usize>| counts.0[0][sums.clone()].iter().flatten().sum();
+    let of_opaque = |sums: &Range<usize>| counts.0[0][sums.clone()].iter().flatten().sum();
     let suspects = shading.watched().iter().map(|(suspect, sums)| (*suspect, of_opaque(sums))).collect();
     Ok((cells, suspects))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn runs_and_what_is_between_them_are_counted() {
+        let mut pixels = vec![7; 100];
+        pixels.extend((0..=255).chain([205; 45]).chain(0..3));
+        let mut table = [[0; LANES]; 256];
+        extend_by(&mut table, &pixels);
+        let mut expected = [0; 256];
+        pixels.iter().for_each(|&pixel| expected[usize::from(pixel)] += 1);
+        assert_eq!(table.map(|lanes| lanes.iter().sum::<u64>()), expected);
+    }
 }

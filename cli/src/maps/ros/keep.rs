@@ -39,6 +39,6 @@ impl Keep for Contents {
     ) -> Result<(Self, Vec<(Suspect, u64)>), Fault> {
         let Size { width, height } = image.layout().size;
         let (cells, suspects) = count(image, shading)?;
-        Ok((Self::Counted(Counted::new::<E>(width, height, &cells)), suspects))
+        Ok((Self::Counted(Box::new(Counted::new::<E>(width, height, &cells))), suspects))
     }
 }

@@ -95,7 +95,9 @@ mod tests {
         let mut table = [[0; LANES]; 256];
         extend_by(&mut table, &pixels);
         let mut expected = [0; 256];
-        pixels.iter().for_each(|&pixel| expected[usize::from(pixel)] += 1);
+        for &pixel in &pixels {
+            expected[usize::from(pixel)] += 1;
+        }
         assert_eq!(table.map(|lanes| lanes.iter().sum::<u64>()), expected);
     }
 }

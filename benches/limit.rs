@@ -63,6 +63,11 @@ fn closed_forms(criterion: &mut Criterion) {
         group.throughput(Throughput::Elements(COUNT as u64));
         for weight in [Weight::Radial, Weight::Area] {
             assert!(rooms.iter().all(|room| (0.2308..=1.0).contains(&closed_form(room, weight))));
+            for room in rooms.iter().step_by(64) {
+                let limit = rigorous(room, weight, &Rigorous::default()).expect("a room");
+                let value = closed_form(room, weight);
+                assert!(limit.lower - f64::EPSILON <= value && value <= limit.upper + f64::EPSILON);
+            }
             let sum = || rooms.iter().map(|room| closed_form(black_box(room), weight)).sum::<f64>();
             group.bench_function(format!("{weight:?}"), |bencher| bencher.iter(sum));
         }

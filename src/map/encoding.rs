@@ -122,17 +122,17 @@ impl<T: Real> Encoding for LogOdds<T> {
     }
 }
 
-/// The cell of a byte by a function of it, from a table that is made when first needed.
+/// A function of a byte, from a table that is made when first needed.
 macro_rules! tabulated {
-    ($byte:ident, $cell:expr) => {{
+    ($byte:ident, $result:ty, $function:expr) => {{
         #[cfg(feature = "std")]
         {
-            static CELLS: LazyLock<[Option<Cell<f64>>; 256]> =
-                LazyLock::new(|| core::array::from_fn(|byte| ($cell)(byte as u8 as i8)));
-            CELLS[usize::from($byte as u8)]
+            static TABLE: LazyLock<[$result; 256]> =
+                LazyLock::new(|| core::array::from_fn(|byte| ($function)(byte as u8 as i8)));
+            TABLE[usize::from($byte as u8)]
         }
         #[cfg(not(feature = "std"))]
-        ($cell)($byte)
+        ($function)($byte)
     }};
 }
 
@@ -163,7 +163,8 @@ impl Encoding for Percent {
     }
 
     fn cell(percent: i8) -> Option<Cell<f64>> {
-        tabulated!(percent, |percent| Percent::occupancy(percent).and_then(|p| Cell::from_occupancy(p).ok()))
+        tabulated!(percent, Option<Cell<f64>>, |percent| Percent::occupancy(percent)
+            .and_then(|p| Cell::from_occupancy(p).ok()))
     }
 
     fn occupancy(percent: i8) -> Option<f64> {
@@ -172,6 +173,10 @@ impl Encoding for Percent {
             0..=100 => Some(f64::from(percent) / 100.0),
             _ => None,
         }
+    }
+
+    fn is_valid(percent: i8) -> bool {
+        (-1..=100).contains(&percent)
     }
 
     fn tally(cells: &[i8]) -> Tally<f64> {
@@ -209,11 +214,15 @@ impl Encoding for MrptLogOdds {
     }
 
     fn cell(stored: i8) -> Option<Cell<f64>> {
-        tabulated!(stored, |stored| Cell::from_log_odds(log_odds(stored)).ok())
+        tabulated!(stored, Option<Cell<f64>>, |stored| Cell::from_log_odds(log_odds(stored)).ok())
     }
 
     fn occupancy(stored: i8) -> Option<f64> {
-        Some(cell::occupancy_from_log_odds(log_odds(stored)))
+        Some(tabulated!(stored, f64, |stored| cell::occupancy_from_log_odds(log_odds(stored))))
+    }
+
+    fn is_valid(_: i8) -> bool {
+        true
     }
 
     fn log_odds(stored: i8) -> Option<f64> {

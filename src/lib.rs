@@ -57,14 +57,14 @@
 //! It reads no files and draws no pictures; the command `meaninfo` (package `mean-information-cli`) does.
 //!
 //! # Features
-//! * `std` (default): maps of floats are measured by the vector unit that the processor turns out to have, to the same bits,
-//!   some twenty times as fast. Without it the crate is `no_std` + `alloc`.
+//! * `std` (default): maps of occupancies in floats are measured by the vector unit that the processor turns out to have, to
+//!   the same bits, many times as fast (`benches/RESULTS.md`). Without it the crate is `no_std` + `alloc`.
 //! * `rayon`: maps and rooms are measured by several threads, to the same bits (`Grid::par_tally` and others).
 //! * `vectors`: arguments with their exact results for every operation, as text, to check an implementation against.
 //! * `serde`: tallies can be written and read, so that parts of a map measured on several machines merge to the same bits.
 //!
-//! The dependencies are `num-traits`, for the vocabulary of generic float code, and `multiversion`, a macro that compiles a
-//! function for several vector units.
+//! The dependencies are `num-traits`, for the vocabulary of generic float code, and with `std` `multiversion`, a macro that
+//! compiles a function for several vector units.
 #![cfg_attr(not(feature = "std"), no_std)]
 
 extern crate alloc;

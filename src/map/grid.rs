@@ -35,8 +35,8 @@ impl<E: Encoding> Grid<E> {
     /// A grid of `width` columns and `height` rows from its cells, row by row from the lowest.
     ///
     /// # Errors
-    /// [`Error::CellCount`] if there are not width times height cells; [`Error::Cell`] naming the first cell whose value
-    /// the encoding does not allow.
+    /// [`Error::CellCount`] if there are not width times height cells; [`Error::Cell`] naming the first cell whose
+    /// value the encoding does not allow.
     pub fn new(
         width: usize,
         height: usize,
@@ -88,7 +88,16 @@ impl<E: Encoding> Grid<E> {
         E::tally(&self.cells)
     }
 
-    /// The mean information (Eq. 4), in bits per observed cell: the same bits as of [`Grid::tally`], sooner.
+    /// The mean information (Eq. 4), in bits per observed cell: the bits of [`Tally::mean_information`], sooner,
+    /// since no entropies are computed; 0 if nothing is observed.
+    ///
+    /// ```
+    /// use mean_information::map::{Geometry, Grid, encoding::Probability};
+    /// let cells = vec![0.25_f32, 0.5, 0.96875, 0.125];
+    /// let map = Grid::<Probability<f32>>::new(2, 2, Geometry::new(0.05, [0.0, 0.0])?, cells)?;
+    /// assert_eq!(map.mean_information(), 0.4815117); // bits per observed cell
+    /// # Ok::<(), mean_information::Error>(())
+    /// ```
     pub fn mean_information(&self) -> E::Float {
         E::information(&self.cells).mean()
     }
@@ -118,6 +127,14 @@ impl<E: Encoding> Grid<E> {
     }
 
     /// [`Grid::mean_information`] by as many threads as rayon has: the same bits for any number of them.
+    ///
+    /// ```
+    /// use mean_information::map::{Geometry, Grid, encoding::MrptLogOdds};
+    /// let cells = (0..2_000_000).map(|k| [0, -32, 24][k % 3]).collect();
+    /// let map = Grid::<MrptLogOdds>::new(2000, 1000, Geometry::new(0.05, [0.0, 0.0])?, cells)?;
+    /// assert_eq!(map.par_mean_information(), map.mean_information());
+    /// # Ok::<(), mean_information::Error>(())
+    /// ```
     pub fn par_mean_information(&self) -> E::Float {
         let merge = |mut sum: Information<_>, part: Information<_>| {
             sum.merge(&part);

@@ -1,7 +1,7 @@
 //! How often each of the 256 bytes occurs: all that a measure needs of a map of bytes.
 //!
-//! Maps of bytes mostly hold very few values. So where a stretch held at most [`FEW`], the next is compared with these, many
-//! cells at once; only where something else turns up are its cells counted one by one.
+//! Maps of bytes mostly hold very few values. So where a stretch held at most [`FEW`], the next is compared with
+//! these, many cells at once; only where something else turns up are its cells counted one by one.
 
 /// The cells of a stretch: counts below fit a byte and 64 lanes.
 const STRETCH: usize = 255 * LANES;

@@ -85,4 +85,17 @@ impl<E: Encoding> PolarMap<E> {
     pub fn tally(&self) -> Tally<E::Float> {
         E::tally(&self.cells)
     }
+
+    /// The mean information (Eq. 4), in bits per observed cell: the bits of [`Tally::mean_information`], sooner, since no
+    /// entropies are computed; 0 if nothing is observed.
+    ///
+    /// ```
+    /// use mean_information::map::{PolarMap, encoding::Probability};
+    /// let map = PolarMap::<Probability<f64>>::new(2, 3, 0.4, vec![0.1, 0.9, 0.5, 0.1, 0.1, 0.9])?;
+    /// assert_eq!(map.mean_information(), 0.5310044064107188);
+    /// # Ok::<(), mean_information::Error>(())
+    /// ```
+    pub fn mean_information(&self) -> E::Float {
+        E::information(&self.cells).mean()
+    }
 }

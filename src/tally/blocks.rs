@@ -6,7 +6,8 @@ use crate::rounded::lanes::{BLOCK, Block};
 /// Fewer cells than these are as quickly done one by one, without the kernels' tables.
 const FEW: usize = 16;
 
-/// Hands the sums of each block of the cells to `take`, with the cells that they leave open; the few cells after the last.
+/// Hands the sums of each block of the cells to `take`, with the cells that they leave open; the few cells after
+/// the last.
 pub(super) fn each<T: Real>(
     mut cells: &[T],
     sums: fn(&[T; BLOCK]) -> Block,

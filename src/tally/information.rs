@@ -9,8 +9,8 @@ use crate::real::Real;
 use crate::rounded::lanes;
 use core::marker::PhantomData;
 
-/// The sum of the information of a map and the number of its observed cells: the half of a [`Tally`] that the mean information
-/// needs. Cells without their entropies are summed up faster.
+/// The sum of the information of a map and the number of its observed cells: the half of a [`Tally`] that the mean
+/// information needs. Cells without their entropies are summed up faster.
 ///
 /// Adding cells in any order, or merging parts in any tree, gives the same bits as a tally does.
 ///
@@ -45,9 +45,10 @@ impl<T: Real> Information<T> {
         Self { sum: ExactSum::new(), observed: 0, format: PhantomData }
     }
 
-    /// Of cells by their occupancies; what is no probability is passed over.
+    /// Of cells by their occupancies; what is no probability is passed over, as in [`Tally::from_occupancies`].
     ///
-    /// The sum is that of the correctly rounded information of the cells, exactly.
+    /// The sum is that of the correctly rounded information of the cells, exactly (proved,
+    /// [`rounding`](crate::book::rounding)).
     pub fn from_occupancies(cells: &[T]) -> Self {
         let mut sums = Self::new();
         #[cfg(feature = "std")]
@@ -79,12 +80,13 @@ impl<T: Real> Information<T> {
         self.sum.merge(&other.sum);
     }
 
-    /// `I(m)`, Eq. 3, in bits: the exact sum, rounded once to nearest.
+    /// `I(m)`, Eq. 3, in bits: the exact sum of the correctly rounded information of the cells, rounded once to nearest.
     pub fn total(&self) -> T {
         self.sum.value()
     }
 
-    /// `I(m) / N_obs`, Eq. 4, in bits per cell: as [`Tally::mean_information`].
+    /// `I(m) / N_obs`, Eq. 4, in bits per observed cell: the exact quotient of that sum, rounded once to nearest; 0 if
+    /// nothing is observed. The bits of [`Tally::mean_information`].
     pub fn mean(&self) -> T {
         self.sum.mean(self.observed)
     }

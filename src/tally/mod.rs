@@ -90,8 +90,12 @@ impl<T: Real> Tally<T> {
 
     /// The tally of cells by their occupancies; what is no probability is passed over.
     ///
-    /// Equal to the tally of the single cells, and many times as fast (feature `std`): whole blocks of cells are summed up by
-    /// the processor's vector unit.
+    /// Equal, bit for bit, to the tally of the single cells (Eqs. 2 to 4; proved,
+    /// [`rounding`](crate::book::rounding), "Many cells at once"), and many times as fast (feature `std`): blocks
+    /// of cells are summed up by the processor's vector unit. The first call makes a table of 128 KB, in a
+    /// millisecond.
+    ///
+    /// What is passed over is missing in [`Tally::cells`]; [`Grid::new`](crate::map::Grid::new) refuses it instead.
     ///
     /// ```
     /// use mean_information::{Tally, cell::Cell};
@@ -145,9 +149,9 @@ impl<T: Real> Tally<T> {
 
     /// `H(m)`, Eq. 2: the entropy of all cells, unknown ones at 1 bit each, in bits.
     ///
-    /// The exact sum of the correctly rounded entropies of the cells, rounded once to nearest: within 1.5 ulp of the sum of the
-    /// exact entropies, unless that is below the normal numbers, where half a unit of the smallest number for each cell
-    /// is added.
+    /// The exact sum of the correctly rounded entropies of the cells, rounded once to nearest: within 1.5 ulp of
+    /// the sum of the exact entropies, unless that is below the normal numbers, where half a unit of the smallest
+    /// number for each cell is added.
     pub fn entropy(&self) -> T {
         self.entropy.value()
     }

@@ -147,7 +147,7 @@ fn every_occupancy_in_blocks() {
     });
 }
 
-/// Of `f64` not all, but 100 million at random: towards 0, towards 1 and towards 1/2, from each binade as many.
+/// Of `f64` not all, but 100 million at random: towards 0, towards 1 and towards 1/2, up to each of 20 powers of two.
 #[test]
 #[ignore = "half a minute in release mode: proofs/exhaust.sh"]
 fn random_occupancies_in_blocks_of_double_precision() {

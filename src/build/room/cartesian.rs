@@ -163,6 +163,14 @@ impl<M: InverseSensorModel> CartesianRoom<M> {
     ///
     /// # Errors
     /// As [`tally`](Self::tally).
+    ///
+    /// ```
+    /// use mean_information::build::CartesianRoom;
+    /// use mean_information::sensor::GaussianSensor;
+    /// let room = CartesianRoom::new(GaussianSensor::new(2.0_f64, 0.2)?, 0.02, [0.5, 0.5])?;
+    /// assert_eq!(room.par_tally()?, room.tally()?);
+    /// # Ok::<(), mean_information::Error>(())
+    /// ```
     #[cfg(feature = "rayon")]
     pub fn par_tally(&self) -> Result<Tally<M::Float>, Error>
     where

@@ -13,13 +13,15 @@ pub(crate) trait Lane: Real {
     type Word: Copy + Default + core::fmt::Debug + Send + Sync + 'static;
     /// Distances below `2^-BINADES` have no centre.
     const BINADES: i32;
+    /// Information at distances from unknown below `2^-NEAREST` has bits below those of the sums.
+    const NEAREST: i32;
     /// The coefficients of the polynomial.
     const TERMS: usize;
     /// A bound on the error before rounding, relative to the value that is summed up: see the chapter on rounding.
     const ERROR: Self;
 
-    /// The centre of the cell of the table in which `x` in `[2^-BINADES, 1/2]` lies, and the cell's number in its half.
-    /// Any pair, the number below [`HALF`], for other `x`.
+    /// The centre of the cell of the table in which `x` in `[2^-BINADES, 1/2]` lies, and the cell's number in its
+    /// half. Any pair, the number below [`HALF`], for other `x`.
     fn centre(x: Self) -> (Self, u32);
 
     /// The centre of the cell of a number; `None` beyond the last.
@@ -45,10 +47,11 @@ pub(crate) trait Lane: Real {
 }
 
 macro_rules! impl_lane {
-    ($float:ident, $word:ident, $signed:ident, $binades:literal, $terms:literal, $slope:literal, $error:literal) => {
+    ($float:ident, $word:ident, $signed:ident, $binades:literal, $nearest:literal, $terms:literal, $slope:literal, $error:literal) => {
         impl Lane for $float {
             type Word = $word;
             const BINADES: i32 = $binades;
+            const NEAREST: i32 = $nearest;
             const TERMS: usize = $terms;
             const ERROR: Self = $error;
 
@@ -108,5 +111,5 @@ macro_rules! impl_lane {
     };
 }
 
-impl_lane!(f32, u32, i32, 10, 3, 12, 6.7e-11); // 2^-33.8
-impl_lane!(f64, u64, i64, 16, 6, 24, 5.5e-20); // 2^-64
+impl_lane!(f32, u32, i32, 16, 10, 3, 12, 7.4e-11); // 2^-33.65
+impl_lane!(f64, u64, i64, 16, 16, 6, 24, 6e-20); // 2^-63.85

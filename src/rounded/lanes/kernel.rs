@@ -58,9 +58,10 @@ impl<T: Lane> Sum<T> {
     #[inline(always)]
     fn add(&mut self, x: T) {
         let high = x + Self::high_origin();
-        let rest = x - (high - Self::high_origin());
+        // What `high` has lost, from the low origin on: every step is exact.
+        let low = x - (high - (Self::high_origin() + Self::low_origin()));
         self.high = T::add_bits(self.high, high);
-        self.low = T::add_bits(self.low, rest + Self::low_origin());
+        self.low = T::add_bits(self.low, low);
     }
 
     fn fixed(self) -> Fixed {
@@ -84,15 +85,18 @@ impl Block {
 
     /// Of the cells of the given occupancies, with their entropies or without.
     ///
-    /// With `FUSED`, some products and sums are rounded at once, which only pays where the target has an instruction for it.
-    /// One loop without branches over arrays of fixed size: that is what compilers make vectors of.
+    /// With `FUSED`, some products and sums are rounded at once, which only pays where the target has an
+    /// instruction for it. One loop without branches over arrays of fixed size: that is what compilers make vectors
+    /// of.
     #[inline(always)]
     pub(crate) fn of<T: Lane, const FUSED: bool, const ENTROPY: bool>(
         table: &Table<T>,
         cells: &[T; BLOCK],
     ) -> Self {
         let (zero, one) = (T::zero(), T::one());
-        let least = T::from_parts(1, -T::BINADES);
+        let [nearest, least] = [T::NEAREST, T::BINADES].map(|binades| T::from_parts(1, -binades));
+        // What is below the precision of `1 - V`.
+        let tiny = T::epsilon() * T::epsilon();
         let mut marks = [mark::OPEN; BLOCK];
         let (mut entropy, mut information) = (Sum::new(), Sum::new());
         for (&p, mark) in cells.iter().zip(&mut marks) {
@@ -102,7 +106,10 @@ impl Block {
             let near = double > T::HALF;
             // The distance from unknown, or twice that from certain; both exact.
             let x = if near { one - double } else { double };
-            let (head, tail) = value::<T, FUSED, ENTROPY>(table, x, near);
+            let least = if near { nearest } else { least };
+            // Not 0 itself: subnormal numbers are slow.
+            let inside = if x > least { x } else { least };
+            let (head, tail) = value::<T, FUSED, ENTROPY>(table, inside, near);
             let (below, above) =
                 (fused::<T, FUSED>(head, -T::ERROR, tail), fused::<T, FUSED>(head, T::ERROR, tail));
             let (value, value_above) = (head + below, head + above);
@@ -112,9 +119,10 @@ impl Block {
             if ENTROPY {
                 let complement = one - head;
                 let rest = (one - complement) - head;
-                let (other, other_above) = (complement + (rest - above), complement + (rest - below));
+                let (other, other_above) =
+                    (complement + (rest - (above + tiny)), complement + (rest - (below - tiny)));
                 done &= other == other_above;
-                let value = if done & !edge { value } else { zero };
+                let value = if done { value } else { zero };
                 let other = if edge {
                     one
                 } else if done {
@@ -125,7 +133,7 @@ impl Block {
                 entropy.add(if near { other } else { value });
                 information.add(if near { value } else { other });
             } else {
-                let value = if done & !edge { value } else { zero };
+                let value = if done { value } else { zero };
                 information.add(if edge & !near { one } else { value });
             }
             done |= edge;
@@ -153,8 +161,8 @@ fn fused<T: Lane, const FUSED: bool>(a: T, b: T, c: T) -> T {
 
 /// `V` at the distance `x`, as a float and a rest of at most `2^-15` of it.
 ///
-/// With `h = x - c` the Taylor series about the centre, `V = V_c + s h + h y E(b, y)`: `y = ∓h / (2 q (1 - q))`, `b = ∓(1 - 2q)`,
-/// and `E = 1/(2 ln 2) sum of e_k y^k`, whose coefficients are polynomials in `b`.
+/// With `h = x - c` the Taylor series about the centre, `V = V_c + s h + h y E(b, y)`: `y = ∓h / (2 q (1 - q))`, `b
+/// = ∓(1 - 2q)`, and `E = 1/(2 ln 2) sum of e_k y^k`, whose coefficients are polynomials in `b`.
 #[inline(always)]
 pub(super) fn value<T: Lane, const FUSED: bool, const ENTROPY: bool>(
     table: &Table<T>,

@@ -1,10 +1,10 @@
 //! Entropy and information of many cells at once, correctly rounded, in the lanes of whatever vector unit there is.
 //!
-//! Ziv's strategy once more, with a first step in floating point and without branches, which compilers turn into vector
-//! instructions: about each of some thousand centres, value and slope are known to twice the precision ([`table`]), the
-//! rest is a short polynomial ([`kernel`]), and a rounding test shows whether the sum of them all has one nearest float.
-//! The few cells that fail it are left to [`Bits`](super::Bits). So every vector unit gives the same bits: the right ones.
-//! The proof is in the chapter [`rounding`](crate::book::rounding).
+//! Ziv's strategy once more, with a first step in floating point and without branches, which compilers turn into
+//! vector instructions: about each of some thousand centres, value and slope are known to twice the precision
+//! ([`table`]), the rest is a short polynomial ([`kernel`]), and a rounding test shows whether the sum of them all
+//! has one nearest float. The few cells that fail it are left to [`Bits`](super::Bits). So every vector unit gives
+//! the same bits: the right ones. The proof is in the chapter [`rounding`](crate::book::rounding).
 
 // A call or a branch in the loop and it is no longer made into vector instructions.
 #![allow(clippy::inline_always, clippy::needless_bitwise_bool)]
@@ -37,7 +37,9 @@ pub(crate) fn information<T: Real>(cells: &[T; BLOCK]) -> Block {
     }
 }
 
-/// The kernels for a format, each compiled for several vector units; the widest that the processor has is taken.
+/// The kernels for a format, each compiled for several vector units, of which the widest is taken that the
+/// processor has: AVX-512 from Ice Lake and Zen 4 on (`multiversion` asks for their extensions, since older ones
+/// run slower with it).
 macro_rules! dispatch {
     ($format:ident, $float:ident) => {
         mod $format {

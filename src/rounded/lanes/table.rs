@@ -8,7 +8,8 @@ use crate::rounded::{enclose, log_odds, round_integer};
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
-/// What the kernel knows of a centre `c`: of the information at `d = c`, in the second half; in the first of the entropy at
+/// What the kernel knows of a centre `c`: of the information at `d = c`, in the second half; in the first of the
+/// entropy at
 /// `q = c / 2`, or, if no entropy is asked for, of the information there.
 ///
 /// Four arrays, since one load of a vector unit gathers from one array.

@@ -9,6 +9,7 @@ use crate::rounded::mean::{self, Fixed};
 use crate::rounded::{enclose, normalised, shift_right};
 use crate::tally::ExactSum;
 use alloc::vec::Vec;
+use core::sync::atomic::{AtomicU64, Ordering};
 use proptest::prelude::*;
 
 /// In units of `2^-120`.
@@ -71,7 +72,8 @@ fn largest<T: Lane>() -> f64 {
     errors.flatten().fold(0.0, f64::max) / T::ERROR.widen()
 }
 
-/// The bounds are proved in the chapter on rounding; here that they are not far above what happens.
+/// The bounds are proved in the chapter on rounding. They are sums of the worst of each operation, a few times what
+/// happens; a bound ten times too large would leave cells open for nothing.
 #[test]
 fn errors_are_within_the_bounds() {
     let (single, double) = (largest::<f32>(), largest::<f64>());
@@ -169,8 +171,34 @@ fn blocks_are_sums_of_cells() {
         let towards: [fn(f64) -> f64; 3] = [|d| d, |d| 0.5 + d / 2.0, |d| 1.0 - d];
         for place in towards {
             let cells: Vec<f64> = cells.iter().map(|d| place(d * power)).collect();
-            check_all(&double, &filled(&cells));
-            check_all(&single, &filled(&cells.iter().map(|&p| p as f32).collect::<Vec<f32>>()));
+            let decided = check_all(&double, &filled(&cells));
+            let singles: Vec<f32> = cells.iter().map(|&p| p as f32).collect();
+            let decided_singles = check_all(&single, &filled(&singles));
+            // Few of a hundred fail the rounding test (docs/rounding.md).
+            prop_assert!(scale > 5 || decided > BLOCK / 2 && decided_singles > BLOCK / 2);
         }
     });
+}
+
+/// Every `f32` that the table reaches, by every kernel: in blocks of successive floats, and of floats far from each
+/// other, so that no two errors make up for each other in both.
+#[test]
+#[ignore = "minutes in release mode: proofs/exhaust.sh"]
+fn every_single_by_every_kernel() {
+    let tables = tables::<f32>();
+    let (first, last) = (f32::from_parts(1, -18).to_bits(), 1.0_f32.to_bits());
+    let blocks = (last - first).div_ceil(BLOCK as u32);
+    let results = AtomicU64::new(0);
+    let work = |part: u32| {
+        for block in (part..blocks).step_by(2) {
+            let successive: [f32; BLOCK] =
+                core::array::from_fn(|k| f32::from_bits(first + block * BLOCK as u32 + k as u32));
+            let apart = core::array::from_fn(|k| f32::from_bits(first + block + k as u32 * blocks));
+            let decided = check_all(&tables, &successive) + check_all(&tables, &apart);
+            results.fetch_add(decided as u64, Ordering::Relaxed);
+        }
+    };
+    std::thread::scope(|scope| (0..2).for_each(|part| drop(scope.spawn(move || work(part)))));
+    let inputs = u64::from(blocks) * BLOCK as u64;
+    std::println!("kernels of f32: {inputs} inputs, {} results, 0 wrong", results.into_inner());
 }

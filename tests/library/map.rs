@@ -1,10 +1,10 @@
 //! Grids, encodings and pooling.
 
 use super::common::occupancy;
-use mean_information::Error;
 use mean_information::cell::{Cell, information};
 use mean_information::map::encoding::{LogOdds, MrptLogOdds, Percent, Probability};
 use mean_information::map::{Encoding, Geometry, Grid, PolarMap};
+use mean_information::{Error, Information, Tally};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -167,4 +167,22 @@ fn each_encoding_has_its_unknown_and_its_values() {
     let bytes = [-128, -127, -32, 0, 0, 64, 127];
     let cells = bytes.map(|byte| MrptLogOdds::cell(byte).unwrap());
     assert_eq!(MrptLogOdds::tally(&bytes), cells.into_iter().collect());
+}
+
+/// The information of stored cells is that of their tally, and each is counted as the cell that it is.
+#[test]
+fn information_is_that_of_the_tally_in_every_encoding() {
+    fn check<E: Encoding>(cells: &[E::Stored]) {
+        let one_by_one: Tally<E::Float> = cells.iter().filter_map(|&stored| E::cell(stored)).collect();
+        assert_eq!(one_by_one.cells(), cells.len() as u64);
+        assert_eq!(E::tally(cells), one_by_one);
+        assert_eq!(E::information(cells), Information::from(&one_by_one));
+        assert!(one_by_one.observed() > 0);
+    }
+    check::<Probability<f64>>(&[0.125, 0.5, 0.75, 1.0]);
+    check::<Probability<f32>>(&[0.125, 0.5, 0.75, 0.0]);
+    check::<LogOdds<f64>>(&[-2.5, 0.0, 3.25, f64::INFINITY]);
+    check::<LogOdds<f32>>(&[-2.5, 0.0, 3.25]);
+    check::<Percent>(&[-1, 0, 37, 50, 100]);
+    check::<MrptLogOdds>(&[-128, -127, 0, 45, 127]);
 }

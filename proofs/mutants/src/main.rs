@@ -27,7 +27,7 @@ use serde_json::Value;
 use suites::Verdict;
 use switches::Switched;
 
-const PACKAGE: [&str; 4] = ["--package", "mean-information", "--features", "serde,vectors"];
+const PACKAGE: [&str; 4] = ["--package", "mean-information", "--features", "serde,vectors,rayon"];
 /// Not `same_bits`, which compiles the source.
 const SUITES: [&str; 11] = [
     "--lib",

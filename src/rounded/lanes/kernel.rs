@@ -183,6 +183,23 @@ pub(super) fn value<T: Lane, const FUSED: bool, const ENTROPY: bool>(
     } else {
         T::one() - c
     };
+    let series = series::<T, FUSED>(b, y);
+    // The product of slope and h, exactly.
+    let (first, second) = if FUSED {
+        let first = slope * h;
+        (first, T::fused(slope, h, -first))
+    } else {
+        (slope.head() * h, (slope - slope.head()) * h)
+    };
+    let head = value + first;
+    let lost = (value - head) + first;
+    (head, fused(h * y, series, fused(slope_low, h, second)) + (lost + value_low))
+}
+
+/// `E(b, y)`, see [`value`].
+#[inline(always)]
+pub(super) fn series<T: Lane, const FUSED: bool>(b: T, y: T) -> T {
+    let fused = fused::<T, FUSED>;
     // 1/(2 ln 2) times 1/2, -1/6 and so on.
     let unit = |numerator: f64, denominator: f64| {
         T::nearest(numerator / denominator / (2.0 * core::f64::consts::LN_2))
@@ -197,15 +214,5 @@ pub(super) fn value<T: Lane, const FUSED: bool, const ENTROPY: bool>(
         even = fused(yy, e4, even);
         odd = fused(yy, fused(yy, e5, e3), odd);
     }
-    let series = fused(by, odd, fused(yy, even, unit(1.0, 2.0)));
-    // The product of slope and h, exactly.
-    let (first, second) = if FUSED {
-        let first = slope * h;
-        (first, T::fused(slope, h, -first))
-    } else {
-        (slope.head() * h, (slope - slope.head()) * h)
-    };
-    let head = value + first;
-    let lost = (value - head) + first;
-    (head, fused(h * y, series, fused(slope_low, h, second)) + (lost + value_low))
+    fused(by, odd, fused(yy, even, unit(1.0, 2.0)))
 }

@@ -1,7 +1,7 @@
 //! The kernel against the enclosures, and its blocks against cells one by one.
 
 use super::format::Lane;
-use super::kernel::{BLOCK, Block, value};
+use super::kernel::{BLOCK, Block, series, value};
 use super::table::Table;
 use crate::cell::{Cell, State};
 use crate::real::Real;
@@ -70,6 +70,30 @@ fn largest<T: Lane>() -> f64 {
         ]
     });
     errors.flatten().fold(0.0, f64::max) / T::ERROR.widen()
+}
+
+/// `2 ln 2 E` from the powers of `c' = (1 - b) / 2`, with an argument so large that every term is seen.
+#[test]
+fn the_series_has_the_coefficients_of_the_chapter() {
+    fn check<T: Lane>(b: f64, y: f64) {
+        let (c, rest) = ((1.0 - b) / 2.0, f64::midpoint(1.0, b));
+        let power = |x: f64, n: usize| (0..n).fold(1.0, |product, _| product * x);
+        let term = |j: usize| {
+            let sign = if j.is_multiple_of(2) { 1.0 } else { -1.0 };
+            (sign * power(rest, j + 1) + power(c, j + 1)) / ((j + 1) * (j + 2)) as f64 * power(y, j)
+        };
+        let exact = (0..T::TERMS).map(term).sum::<f64>() / (2.0 * core::f64::consts::LN_2);
+        for found in
+            [series::<T, true>, series::<T, false>].map(|series| series(T::nearest(b), T::nearest(y)))
+        {
+            // A dozen roundings of terms below 1.
+            assert!((found.widen() - exact).abs() < 16.0 * T::epsilon().widen(), "{b} {y}: {found} {exact}");
+        }
+    }
+    for (b, y) in [(0.9375, 0.875), (-0.8125, 0.75), (0.375, -0.9375), (0.0, 0.5), (-0.5625, -0.8125)] {
+        check::<f64>(b, y);
+        check::<f32>(b, y);
+    }
 }
 
 /// The bounds are proved in the chapter on rounding. They are sums of the worst of each operation, a few times what

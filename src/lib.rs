@@ -71,6 +71,7 @@ extern crate alloc;
 #[cfg(feature = "std")]
 extern crate std;
 
+pub mod book;
 pub mod build;
 pub mod cell;
 pub mod elementary;
@@ -93,44 +94,6 @@ pub mod vectors;
 pub use error::Error;
 pub use real::Real;
 pub use tally::{ExactSum, Information, Tally};
-
-/// The derivation, chapter by chapter. Every number and every claim that can be executed is.
-pub mod book {
-    #[doc = include_str!("../docs/cell.md")]
-    pub mod cell {}
-    #[doc = include_str!("../docs/map.md")]
-    pub mod map {}
-    #[doc = include_str!("../docs/sensor.md")]
-    pub mod sensor {}
-    #[doc = include_str!("../docs/grids.md")]
-    pub mod grids {}
-    #[doc = include_str!("../docs/convergence.md")]
-    pub mod convergence {}
-    #[doc = include_str!("../docs/erratum.md")]
-    pub mod erratum {}
-    #[doc = include_str!("../docs/scan.md")]
-    pub mod scan {}
-    #[doc = include_str!("../docs/fusion.md")]
-    pub mod fusion {}
-    #[doc = include_str!("../docs/expected.md")]
-    pub mod expected {}
-    #[doc = include_str!("../docs/figures.md")]
-    pub mod figures {}
-    #[doc = include_str!("../docs/rounding.md")]
-    pub mod rounding {}
-    #[doc = include_str!("../docs/limit.md")]
-    pub mod limit {}
-    #[doc = include_str!("../docs/quadrature.md")]
-    pub mod quadrature {}
-    #[doc = include_str!("../docs/integration.md")]
-    pub mod integration {}
-    #[doc = include_str!("../docs/operations.md")]
-    pub mod operations {}
-    #[doc = include_str!("../docs/guarantees.md")]
-    pub mod guarantees {}
-    #[doc = include_str!("../docs/porting.md")]
-    pub mod porting {}
-}
 
 /// The examples of the README.
 #[cfg(doctest)]

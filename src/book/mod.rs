@@ -1,0 +1,40 @@
+#![doc = include_str!("links.md")]
+#![doc = include_str!("../../docs/README.md")]
+#![doc = include_str!("typeset.html")]
+
+/// Chapters from `docs/`, in the order of reading: their links lead to items here, where on their own they lead to files;
+/// figures travel in the page, since rustdoc copies no files.
+macro_rules! chapters {
+    ($($name:ident $(shows $($figure:literal)+)?;)*) => {$(
+        #[doc = include_str!("links.md")]
+        #[doc = include_str!(concat!("../../docs/", stringify!($name), ".md"))]
+        $($(
+            #[doc = concat!("\n<script type=\"image/svg+xml\" data-figure=\"", $figure, "\">")]
+            #[doc = include_str!(concat!("../../docs/", $figure))]
+            #[doc = "</script>"]
+        )+)?
+        #[doc = include_str!("typeset.html")]
+        pub mod $name {}
+    )*};
+}
+
+chapters! {
+    notation;
+    cell;
+    map;
+    sensor;
+    grids;
+    scan;
+    fusion;
+    expected;
+    limit;
+    convergence;
+    erratum;
+    figures;
+    rounding;
+    quadrature;
+    integration;
+    guarantees;
+    operations;
+    porting;
+}

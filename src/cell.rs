@@ -180,7 +180,8 @@ pub fn information_from_log_odds<T: Real>(l: T) -> T {
 
 /// The occupancy `p = 1 / (1 + e^-l)` of a cell of log-odds `l` (nats).
 ///
-/// Correctly rounded: ties cannot occur, since `e^l` is transcendental for every float `l != 0` (Lindemann).
+/// Correctly rounded: ties cannot occur, since `e^l` is transcendental for every float `l != 0` (Lindemann; proved,
+/// [`rounding`](crate::book::rounding)).
 ///
 /// Special cases: 1/2 at `l = 0`, 0 and 1 at `l = -inf` and `+inf`, NaN at NaN.
 ///
@@ -194,7 +195,8 @@ pub fn occupancy_from_log_odds<T: Real>(l: T) -> T {
 
 /// The log-odds `l = ln(p / (1 - p))` of a cell of occupancy `p`, in nats.
 ///
-/// Correctly rounded: ties cannot occur, since `e^l` is transcendental for every float `l != 0` (Lindemann).
+/// Correctly rounded: ties cannot occur, since `e^l` is transcendental for every float `l != 0` (Lindemann; proved,
+/// [`rounding`](crate::book::rounding)).
 ///
 /// Special cases: 0 at `p = 1/2`, `-inf` and `+inf` at 0 and 1; NaN for `p` outside `[0, 1]` or NaN.
 ///

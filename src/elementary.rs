@@ -7,7 +7,7 @@
 use crate::real::Real;
 use crate::rounded;
 
-/// `e^x`, correctly rounded (proved).
+/// `e^x`, correctly rounded (proved, [`rounding`](crate::book::rounding)).
 ///
 /// Special cases: 0 at `-inf`, `inf` at `inf` and on overflow, NaN at NaN.
 ///
@@ -18,7 +18,7 @@ pub fn exp<T: Real>(x: T) -> T {
     rounded::exp(x)
 }
 
-/// `ln x`, correctly rounded (proved).
+/// `ln x`, correctly rounded (proved, [`rounding`](crate::book::rounding)).
 ///
 /// Special cases: `-inf` at 0, `inf` at `inf`, NaN below 0 and at NaN.
 ///
@@ -29,7 +29,7 @@ pub fn ln<T: Real>(x: T) -> T {
     rounded::ln(x)
 }
 
-/// The square root of `x`, correctly rounded (proved: an integer square root and its remainder).
+/// The square root of `x`, correctly rounded (proved: an integer square root and its remainder, as in IEEE 754).
 ///
 /// Special cases: `±0` at `±0`, `inf` at `inf`, NaN below 0 and at NaN.
 ///

@@ -93,6 +93,21 @@ fn the_report_is_reproduced() {
     for claim in claims {
         assert!(table.contains(claim["verdict"].as_str().unwrap()));
     }
+
+    // The map of the report has the same claims, with the same verdicts, in the same order.
+    let map = fs::read_to_string("../docs/paper.md").unwrap();
+    let (_, listed) = map.split_once("\n## Claims").unwrap();
+    let listed = listed.lines().filter(|line| line.starts_with("| ") && !line.starts_with("| |"));
+    let listed: Vec<Vec<_>> =
+        listed.map(|line| line.trim_matches('|').split('|').map(str::trim).collect()).collect();
+    let text = |claim: &Value, key: &str| claim[key].as_str().unwrap().to_owned();
+    assert_eq!(
+        listed.iter().map(|row| [row[0], row[1], row[6]].map(str::to_owned)).collect::<Vec<_>>(),
+        claims
+            .iter()
+            .map(|claim| ["place", "claim", "verdict"].map(|key| text(claim, key)))
+            .collect::<Vec<_>>()
+    );
 }
 
 /// Before anything is computed.

@@ -37,4 +37,6 @@ chapters! {
     guarantees;
     operations;
     porting;
+    paper;
+    architecture;
 }

@@ -76,12 +76,13 @@ impl<E: Encoding> PolarMap<E> {
         (sector < self.sectors).then(|| &self.cells[sector * self.rings..][..self.rings])
     }
 
-    /// The occupancy of one cell; `None` outside the map.
+    /// The occupancy of one cell, the bits of [`Encoding::occupancy`]; `None` outside the map.
     pub fn occupancy(&self, sector: usize, ring: usize) -> Option<E::Float> {
         self.sector(sector)?.get(ring).and_then(|&stored| E::occupancy(stored))
     }
 
-    /// Entropy, information and counts over all cells (Eqs. 2 to 4), each counted once whatever its area.
+    /// Entropy, information and counts over all cells (Eqs. 2 to 4), each counted once whatever its area; the sums are
+    /// exact.
     pub fn tally(&self) -> Tally<E::Float> {
         E::tally(&self.cells)
     }

@@ -45,7 +45,7 @@ impl From<Error> for Refusal {
 impl Operation {
     /// The result for these arguments, in the format `T`.
     ///
-    /// **Error**: at most [`Operation::tolerance_ulp`], or what the function promises, which is less
+    /// **Error**: within [`Operation::tolerance_ulp`], or what the function promises, which is less
     /// ([`guarantees`](crate::book::guarantees)); of a grid, what `vectors/README.md` allows (measured, on the
     /// vectors).
     ///

@@ -14,7 +14,8 @@ const MOST: usize = 10_000;
 /// that would find it; towards the end where the mass of a long interval lies.
 ///
 /// **Error**: each point is within `(k + 2) ε` of the largest magnitude of the ends, `ε` being the spacing of floats at 1
-/// (proved: the distance is at most twice that magnitude and rounded `k + 1` times by half an `ε`, the sum once). Points
+/// (proved: by IEEE 754 the distance, at most
+/// twice that magnitude, is rounded `k + 1` times by half an `ε`, and the sum once). Points
 /// that coincide are harmless, and left.
 ///
 /// # Errors

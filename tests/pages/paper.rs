@@ -1,0 +1,55 @@
+//! `docs/paper.md`, the map from the report to the code: each row resolves, and none is missing.
+
+use crate::{ROOT, read, rows, sources, spans};
+use mean_information::operations::OPERATIONS;
+use std::collections::BTreeSet;
+use std::path::Path;
+
+const PAGE: &str = "docs/paper.md";
+
+#[test]
+fn every_row_resolves() {
+    let page = read(PAGE);
+    let code: String = sources("src").iter().map(read).collect();
+    let rows = rows(&page);
+    assert!(rows.len() >= 33, "{}", rows.len());
+    for row in &rows {
+        let [place, what, chapter, function, vectors, test, ..] = row[..] else { panic!("{row:?}") };
+        assert!(!place.is_empty() && !what.is_empty());
+        read(format!("docs/{}.md", chapter.trim_matches(['[', ']'])));
+        // That the link leads to it is checked by `cargo doc`; here, that there is an item of the name shown.
+        let item = spans(function).next().unwrap_or_else(|| panic!("{place}: {function}"));
+        let name = item.rsplit("::").next().unwrap();
+        let declared = ["fn", "struct", "enum", "mod"].map(|kind| format!("pub {kind} {name}"));
+        assert!(declared.iter().any(|item| code.contains(item)), "{place}: {item}");
+        for operation in spans(vectors) {
+            assert!(OPERATIONS.iter().any(|known| known.name == operation), "{place}: {operation}");
+            read(format!("vectors/v1/{operation}.json"));
+        }
+        let [file, test] = spans(test).collect::<Vec<_>>()[..] else { panic!("{place}: {test}") };
+        // The package of the library is without the command line.
+        if Path::new(ROOT).join("cli").exists() || !file.starts_with("cli/") {
+            assert!(read(file).contains(&format!("fn {test}(")), "{place}: {file} {test}");
+        }
+    }
+}
+
+#[test]
+fn no_equation_figure_or_operation_is_missing() {
+    let page = read(PAGE);
+    let rows = rows(&page);
+    let places: BTreeSet<_> = rows.iter().map(|row| row[0]).collect();
+    for equation in 1..=7 {
+        assert!(places.contains(&*format!("Eq. {equation}")), "Eq. {equation}");
+    }
+    for figure in 1..=5 {
+        assert!(places.contains(&*format!("Fig. {figure}")), "Fig. {figure}");
+    }
+    let served: BTreeSet<_> = rows.iter().flat_map(|row| spans(row[4])).collect();
+    // Log-odds are a way to store a cell, of which the report does not speak.
+    let rest = OPERATIONS.iter().filter(|operation| !served.contains(operation.name));
+    let rest: Vec<_> = rest.map(|operation| operation.name).collect();
+    let log_odds =
+        ["cell.entropy_from_log_odds", "cell.information_from_log_odds", "cell.occupancy_from_log_odds"];
+    assert_eq!(rest, log_odds);
+}

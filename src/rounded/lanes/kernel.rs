@@ -1,7 +1,7 @@
 //! The sums of entropy and information over a block of cells.
 
-use super::format::{HALF, Lane};
-use super::table::Table;
+use super::format::Lane;
+use super::table::{self, Rows, Table};
 use crate::rounded::mean::Fixed;
 
 /// The cells that are summed up at once: so few that no sum of bits overflows.
@@ -93,6 +93,7 @@ impl Block {
         table: &Table<T>,
         cells: &[T; BLOCK],
     ) -> Self {
+        let rows = table.rows::<ENTROPY>();
         let (zero, one) = (T::zero(), T::one());
         let [nearest, least] = [T::NEAREST, T::BINADES].map(|binades| T::from_parts(1, -binades));
         // What is below the precision of `1 - V`.
@@ -109,7 +110,7 @@ impl Block {
             let least = if near { nearest } else { least };
             // Not 0 itself: subnormal numbers are slow.
             let inside = if x > least { x } else { least };
-            let (head, tail) = value::<T, FUSED, ENTROPY>(table, inside, near);
+            let (head, tail) = value::<T, FUSED, ENTROPY>(&rows, inside, near);
             let (below, above) =
                 (fused::<T, FUSED>(head, -T::ERROR, tail), fused::<T, FUSED>(head, T::ERROR, tail));
             let (value, value_above) = (head + below, head + above);
@@ -165,15 +166,15 @@ fn fused<T: Lane, const FUSED: bool>(a: T, b: T, c: T) -> T {
 /// = ∓(1 - 2q)`, and `E = 1/(2 ln 2) sum of e_k y^k`, whose coefficients are polynomials in `b`.
 #[inline(always)]
 pub(super) fn value<T: Lane, const FUSED: bool, const ENTROPY: bool>(
-    table: &Table<T>,
+    rows: &Rows<'_, T>,
     x: T,
     near: bool,
 ) -> (T, T) {
     let fused = fused::<T, FUSED>;
     let (c, number) = T::centre(x);
-    let row = (number + if near { HALF as u32 } else { 0 }) as usize % (2 * HALF);
-    let (value, slope, inverse) = (table.value[row], table.slope[row], table.inverse[row]);
-    let (value_low, slope_low) = T::unpack(table.low[row]);
+    let row = table::row::<ENTROPY>(number, near);
+    let (value, slope, inverse) = (rows.value[row], rows.slope[row], rows.inverse[row]);
+    let (value_low, slope_low) = T::unpack(rows.low[row]);
     let h = x - c;
     let y = h * inverse;
     let b = if near {

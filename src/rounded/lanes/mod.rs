@@ -45,15 +45,15 @@ macro_rules! dispatch {
         mod $format {
             use super::*;
 
+            /// Made when first needed.
+            static TABLE: LazyLock<Table<$float>> = LazyLock::new(Table::new);
+
             dispatch!(sums, $float, true);
             dispatch!(information, $float, false);
         }
     };
     ($name:ident, $float:ident, $entropy:literal) => {
         pub(super) fn $name(cells: &[$float; BLOCK]) -> Block {
-            /// Made when first needed.
-            static TABLE: LazyLock<Table<$float>> = LazyLock::new(|| Table::new($entropy));
-
             #[multiversion(targets(
                 "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+bmi2+fma",
                 "x86_64+avx2+bmi2+fma"

@@ -3,34 +3,41 @@
 use super::format::{HALF, Lane};
 use crate::rounded::constants::INV_LN2;
 use crate::rounded::fixed::mul_high;
-use crate::rounded::mean::{self, Fixed};
+use crate::rounded::mean::{self, Both, Fixed};
 use crate::rounded::{enclose, log_odds, round_integer};
 use alloc::boxed::Box;
 use alloc::vec::Vec;
+use core::iter::repeat_n;
 
-/// What the kernel knows of a centre `c`: of the information at `d = c`, in the second half; in the first of the
-/// entropy at
-/// `q = c / 2`, or, if no entropy is asked for, of the information there.
+/// What the kernels know of a centre `c`, in three thirds: of the entropy at `q = c / 2`, of the information at the
+/// distance `c` from unknown, and of the information at `q = c / 2`. A kernel needs two that are next to each other.
 ///
 /// Four arrays, since one load of a vector unit gathers from one array.
 pub(crate) struct Table<T: Lane> {
+    value: Box<[T; 3 * HALF]>,
+    slope: Box<[T; 3 * HALF]>,
+    low: Box<[T::Word; 3 * HALF]>,
+    inverse: Box<[T; 3 * HALF]>,
+}
+
+/// The two thirds of a [`Table`] that a kernel needs.
+pub(super) struct Rows<'a, T: Lane> {
     /// The value `V`, rounded.
-    pub(super) value: Box<[T; 2 * HALF]>,
+    pub(super) value: &'a [T; 2 * HALF],
     /// `dV/dc`, rounded.
-    pub(super) slope: Box<[T; 2 * HALF]>,
+    pub(super) slope: &'a [T; 2 * HALF],
     /// What rounding took from both.
-    pub(super) low: Box<[T::Word; 2 * HALF]>,
+    pub(super) low: &'a [T::Word; 2 * HALF],
     /// `1 / (2 q (1 - q))` with the sign of the curvature of `V`.
-    pub(super) inverse: Box<[T; 2 * HALF]>,
+    pub(super) inverse: &'a [T; 2 * HALF],
 }
 
 impl<T: Lane> Table<T> {
-    pub(super) fn new(entropy: bool) -> Self {
-        let mut rows = Vec::with_capacity(2 * HALF);
-        for small in [true, false] {
-            let centres = (0..HALF).map_while(T::centre_of).map(|c| Row::new(c, small, entropy));
-            rows.extend(centres);
-            rows.resize(if small { HALF } else { 2 * HALF }, Row::default());
+    pub(super) fn new() -> Self {
+        let mut rows: Vec<Row<T>> = repeat_n(Row::default(), 3 * HALF).collect();
+        for (k, c) in (0..HALF).map_while(T::centre_of).enumerate() {
+            [rows[k], rows[2 * HALF + k]] = Row::small(c);
+            rows[HALF + k] = Row::near(c);
         }
         let column = |of: fn(&Row<T>) -> T| Box::new(core::array::from_fn(|k| of(&rows[k])));
         Self {
@@ -40,6 +47,30 @@ impl<T: Lane> Table<T> {
             low: Box::new(core::array::from_fn(|k| rows[k].low)),
         }
     }
+
+    /// Those for a kernel with entropies or without.
+    #[inline(always)]
+    pub(super) fn rows<const ENTROPY: bool>(&self) -> Rows<'_, T> {
+        Rows {
+            value: two_thirds::<_, ENTROPY>(&self.value),
+            slope: two_thirds::<_, ENTROPY>(&self.slope),
+            low: two_thirds::<_, ENTROPY>(&self.low),
+            inverse: two_thirds::<_, ENTROPY>(&self.inverse),
+        }
+    }
+}
+
+/// The row of a centre by its number among those near unknown or among the others.
+#[inline(always)]
+pub(super) fn row<const ENTROPY: bool>(number: u32, near: bool) -> usize {
+    (number + if near == ENTROPY { HALF as u32 } else { 0 }) as usize % (2 * HALF)
+}
+
+/// The first two, or the last.
+#[inline(always)]
+fn two_thirds<X, const FIRST: bool>(all: &[X; 3 * HALF]) -> &[X; 2 * HALF] {
+    let two = if FIRST { all.first_chunk() } else { all.last_chunk() };
+    two.expect("three thirds have two")
 }
 
 #[derive(Clone, Copy, Default)]
@@ -51,23 +82,35 @@ struct Row<T: Lane> {
 }
 
 impl<T: Lane> Row<T> {
-    fn new(c: T, small: bool, with_entropy: bool) -> Self {
-        // Both exact: a centre has few bits.
-        let q = if small { c.widen() / 2.0 } else { (1.0 - c.widen()) / 2.0 };
-        let (m, e) = crate::rounded::normalised(q);
-        let (entropy, information) = enclose::from_occupancy(m, e);
-        let concave = small && with_entropy;
-        let (value, value_low) = pair(mean::middle(if concave { entropy } else { information }));
-        // |dV/dq| = |l| / ln 2, and dq/dc = ±1/2.
-        let magnitude = log_odds::magnitude(m, -e);
-        let slope = Fixed { value: mul_high(magnitude.value, INV_LN2), exponent: magnitude.exponent };
-        let (slope, slope_low) = pair::<T>(slope);
-        let falls = small && !with_entropy;
-        let (slope, slope_low) = if falls { (-slope, -slope_low) } else { (slope, slope_low) };
-        let inverse = T::nearest(0.5 / (q * (1.0 - q)));
-        let inverse = if concave { -inverse } else { inverse };
-        Self { value, slope, low: T::pack(value_low, slope_low), inverse }
+    /// Of the entropy, which is concave, and of the information, which falls, at `q = c / 2`.
+    fn small(c: T) -> [Self; 2] {
+        let ((entropy, information), slope, inverse) = around(c.widen() / 2.0);
+        [Self::new(entropy, slope, -inverse, false), Self::new(information, slope, inverse, true)]
     }
+
+    /// Of the information at the distance `c` from unknown.
+    fn near(c: T) -> Self {
+        let ((_, information), slope, inverse) = around((1.0 - c.widen()) / 2.0);
+        Self::new(information, slope, inverse, false)
+    }
+
+    fn new(value: Fixed, slope: Fixed, inverse: f64, falls: bool) -> Self {
+        let (value, value_low) = pair(value);
+        let (slope, slope_low) = pair::<T>(slope);
+        let (slope, slope_low) = if falls { (-slope, -slope_low) } else { (slope, slope_low) };
+        Self { value, slope, low: T::pack(value_low, slope_low), inverse: T::nearest(inverse) }
+    }
+}
+
+/// Entropy and information at `q`, the magnitude of their slopes, and that of their curvature's factor. `q` is exact: a
+/// centre has few bits.
+fn around(q: f64) -> (Both, Fixed, f64) {
+    let (m, e) = crate::rounded::normalised(q);
+    let (entropy, information) = enclose::from_occupancy(m, e);
+    // |dV/dq| = |l| / ln 2, and dq/dc = ±1/2.
+    let magnitude = log_odds::magnitude(m, -e);
+    let slope = Fixed { value: mul_high(magnitude.value, INV_LN2), exponent: magnitude.exponent };
+    ((mean::middle(entropy), mean::middle(information)), slope, 0.5 / (q * (1.0 - q)))
 }
 
 /// The nearest float, and the float nearest to what is left.

@@ -26,11 +26,6 @@ fn units_of<T: Lane>(x: T) -> i128 {
     if x < T::zero() { -magnitude } else { magnitude }
 }
 
-/// With entropies and without.
-fn tables<T: Lane>() -> [Table<T>; 2] {
-    [true, false].map(Table::new)
-}
-
 /// The error of the kernel's value at `p`, relative to the value; `None` beyond the table.
 fn error<T: Lane, const FUSED: bool, const ENTROPY: bool>(table: &Table<T>, p: T) -> Option<f64> {
     let q = p.min(T::one() - p);
@@ -42,7 +37,7 @@ fn error<T: Lane, const FUSED: bool, const ENTROPY: bool>(table: &Table<T>, p: T
     let (m, e) = normalised(p);
     let (entropy, information) = enclose::from_occupancy(m, e);
     let exact = units(mean::middle(if ENTROPY && !near { entropy } else { information }));
-    let (head, tail) = value::<T, FUSED, ENTROPY>(table, x, near);
+    let (head, tail) = value::<T, FUSED, ENTROPY>(&table.rows::<ENTROPY>(), x, near);
     Some((units_of(head) + units_of(tail) - exact).abs() as f64 / exact as f64)
 }
 
@@ -60,13 +55,13 @@ fn ends<T: Lane>() -> impl Iterator<Item = T> {
 
 /// The largest error at the ends of the cells, relative to the bound.
 fn largest<T: Lane>() -> f64 {
-    let tables = tables::<T>();
+    let table = &Table::new();
     let errors = ends::<T>().filter(|&p| p < T::one()).flat_map(|p| {
         [
-            error::<T, true, true>(&tables[0], p),
-            error::<T, false, true>(&tables[0], p),
-            error::<T, true, false>(&tables[1], p),
-            error::<T, false, false>(&tables[1], p),
+            error::<T, true, true>(table, p),
+            error::<T, false, true>(table, p),
+            error::<T, true, false>(table, p),
+            error::<T, false, false>(table, p),
         ]
     });
     errors.flatten().fold(0.0, f64::max) / T::ERROR.widen()
@@ -141,12 +136,12 @@ fn check<T: Lane, const FUSED: bool, const ENTROPY: bool>(table: &Table<T>, cell
 }
 
 /// The fewest cells that a kernel decides.
-fn check_all<T: Lane>([both, single]: &[Table<T>; 2], cells: &[T; BLOCK]) -> usize {
+fn check_all<T: Lane>(table: &Table<T>, cells: &[T; BLOCK]) -> usize {
     let decided = [
-        check::<T, true, true>(both, cells),
-        check::<T, false, true>(both, cells),
-        check::<T, true, false>(single, cells),
-        check::<T, false, false>(single, cells),
+        check::<T, true, true>(table, cells),
+        check::<T, false, true>(table, cells),
+        check::<T, true, false>(table, cells),
+        check::<T, false, false>(table, cells),
     ];
     decided.into_iter().min().unwrap_or(0)
 }
@@ -157,14 +152,14 @@ fn filled<T: Lane>(cells: &[T]) -> [T; BLOCK] {
 }
 
 fn special<T: Lane>() {
-    let tables = tables::<T>();
+    let table = &Table::new();
     let (one, least) = (T::one(), T::from_parts(1, T::MIN_EXPONENT));
     let ulp = T::epsilon();
     let edge = T::from_parts(1, -T::BINADES - 1);
     let none = [T::nan(), -T::HALF, one + ulp, T::infinity(), T::neg_infinity(), -least, T::max_value()];
-    assert_eq!(check_all(&tables, &filled(&none)), 0);
+    assert_eq!(check_all(table, &filled(&none)), 0);
     let exact = [T::zero(), -T::zero(), T::HALF, one];
-    assert_eq!(check_all(&tables, &filled(&exact)), BLOCK);
+    assert_eq!(check_all(table, &filled(&exact)), BLOCK);
     let beyond = [
         least,
         edge - edge * ulp,
@@ -173,11 +168,11 @@ fn special<T: Lane>() {
         T::HALF - ulp,
         T::HALF - edge * T::HALF,
     ];
-    assert_eq!(check_all(&tables, &filled(&beyond)), 0);
+    assert_eq!(check_all(table, &filled(&beyond)), 0);
     let quarter = T::HALF * T::HALF;
     let borders =
         [edge, T::HALF - edge, T::HALF + edge, quarter, quarter + ulp, quarter - ulp, one - quarter];
-    assert!(check_all(&tables, &filled(&borders)) > BLOCK / 2);
+    assert!(check_all(table, &filled(&borders)) > BLOCK / 2);
 }
 
 #[test]
@@ -189,7 +184,7 @@ fn special_cells() {
 /// Random cells towards 0, towards 1/2 and towards 1.
 #[test]
 fn blocks_are_sums_of_cells() {
-    let (double, single) = (tables::<f64>(), tables::<f32>());
+    let (double, single) = (Table::<f64>::new(), Table::<f32>::new());
     proptest!(ProptestConfig::with_cases(32), |(cells in prop::collection::vec(0.0_f64..1.0, BLOCK), scale in 0_i32..40)| {
         let power = f64::from_parts(1, -scale);
         let towards: [fn(f64) -> f64; 3] = [|d| d, |d| 0.5 + d / 2.0, |d| 1.0 - d];
@@ -209,7 +204,7 @@ fn blocks_are_sums_of_cells() {
 #[test]
 #[ignore = "minutes in release mode: proofs/exhaust.sh"]
 fn every_single_by_every_kernel() {
-    let tables = tables::<f32>();
+    let table = &Table::new();
     let (first, last) = (f32::from_parts(1, -18).to_bits(), 1.0_f32.to_bits());
     let blocks = (last - first).div_ceil(BLOCK as u32);
     let results = AtomicU64::new(0);
@@ -218,7 +213,7 @@ fn every_single_by_every_kernel() {
             let successive: [f32; BLOCK] =
                 core::array::from_fn(|k| f32::from_bits(first + block * BLOCK as u32 + k as u32));
             let apart = core::array::from_fn(|k| f32::from_bits(first + block + k as u32 * blocks));
-            let decided = check_all(&tables, &successive) + check_all(&tables, &apart);
+            let decided = check_all(table, &successive) + check_all(table, &apart);
             results.fetch_add(decided as u64, Ordering::Relaxed);
         }
     };

@@ -2,7 +2,7 @@
 
 use mean_information::build::Hypotheses;
 use mean_information::map::{Geometry, Grid, encoding::Probability};
-use mean_information::{Tally, cell::Cell};
+use mean_information::{Information, Tally, cell::Cell};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -20,7 +20,13 @@ proptest! {
         let mut arrived: Tally<f64> = serde_json::from_str(&text).unwrap();
         prop_assert_eq!(&arrived, &tally(&here));
         arrived.merge(&tally(&there));
-        prop_assert_eq!(arrived, tally(&[here, there].concat()));
+        prop_assert_eq!(arrived, tally(&[&here[..], &there].concat()));
+
+        let text = serde_json::to_string(&Information::from_occupancies(&here)).unwrap();
+        let mut arrived: Information<f64> = serde_json::from_str(&text).unwrap();
+        prop_assert_eq!(&arrived, &Information::from_occupancies(&here));
+        arrived.merge(&Information::from_occupancies(&there));
+        prop_assert_eq!(arrived, Information::from_occupancies(&[here, there].concat()));
     }
 }
 
@@ -45,6 +51,11 @@ fn the_text_is_readable_anywhere() {
     assert_eq!(serde_json::to_string(&tally(&[0.5, 0.0])).unwrap(), expected);
     let empty = r#"{"format":"f32","entropy":"0","information":"0","unknown":0,"free":0,"occupied":0}"#;
     assert_eq!(serde_json::from_str::<Tally<f32>>(empty).unwrap(), Tally::new());
+
+    let expected = format!(r#"{{"format":"f64","information":"{one}","unknown":1,"observed":1}}"#);
+    assert_eq!(serde_json::to_string(&Information::from(&tally(&[0.5, 0.0]))).unwrap(), expected);
+    let empty = r#"{"format":"f32","information":"0","unknown":0,"observed":0}"#;
+    assert_eq!(serde_json::from_str::<Information<f32>>(empty).unwrap(), Information::new());
 }
 
 #[test]
@@ -75,4 +86,23 @@ fn a_tally_that_cannot_be_is_refused() {
         );
         assert_eq!(serde_json::from_str::<Tally<f32>>(&text).is_ok(), holds, "{text}");
     }
+}
+
+#[test]
+fn information_that_cannot_be_is_refused() {
+    let good = serde_json::to_value(Information::from(&tally(&[0.25, 0.5, 1.0]))).unwrap();
+    let refused = |key: &str, value: serde_json::Value| {
+        let mut bad = good.clone();
+        bad[key] = value;
+        serde_json::from_value::<Information<f64>>(bad).unwrap_err().to_string()
+    };
+    assert!(serde_json::from_value::<Information<f64>>(good.clone()).is_ok());
+    assert_eq!(refused("format", "f32".into()), "a tally of f32 cells, wanted is f64");
+    assert_eq!(refused("observed", 1.into()), "the information is at most 1 bit per observed cell");
+    assert_eq!(refused("unknown", u64::MAX.into()), "a tally holds at most 2^64 - 1 cells");
+    assert!(refused("entropy", "0".into()).contains("unknown field"));
+    let mut least = good.clone();
+    (least["format"], least["information"]) = ("f32".into(), "1".into());
+    let error = serde_json::from_value::<Information<f32>>(least).unwrap_err().to_string();
+    assert_eq!(error, "the sums are no sums of numbers of f32");
 }

@@ -119,11 +119,7 @@ impl<E: Encoding> Grid<E> {
     /// # Ok::<(), mean_information::Error>(())
     /// ```
     pub fn par_tally(&self) -> Tally<E::Float> {
-        let merge = |mut sum: Tally<_>, part: Tally<_>| {
-            sum.merge(&part);
-            sum
-        };
-        self.parts().map(E::tally).reduce(Tally::new, merge)
+        self.parts().map(E::tally).sum()
     }
 
     /// [`Grid::mean_information`] by as many threads as rayon has: the same bits for any number of them.
@@ -136,11 +132,7 @@ impl<E: Encoding> Grid<E> {
     /// # Ok::<(), mean_information::Error>(())
     /// ```
     pub fn par_mean_information(&self) -> E::Float {
-        let merge = |mut sum: Information<_>, part: Information<_>| {
-            sum.merge(&part);
-            sum
-        };
-        self.parts().map(E::information).reduce(Information::new, merge).mean()
+        self.parts().map(E::information).sum::<Information<_>>().mean()
     }
 
     fn parts(&self) -> impl ParallelIterator<Item = &[E::Stored]> {

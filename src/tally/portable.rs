@@ -1,10 +1,10 @@
-//! A tally as text, so that it can travel between machines and be merged there (feature `serde`).
+//! Tallies as text, so that they can travel between machines and be merged there (feature `serde`).
 //!
 //! The sums are written as hexadecimal integers in units of `2^-1074`: exact, and readable in any language with big
-//! integers. Reading refuses counts that overflow, sums above 1 bit per cell, an entropy below that of the unknown cells, and
-//! sums that are no multiple of the smallest number of the format.
+//! integers. Reading refuses counts that overflow, sums above 1 bit per cell, an entropy below that of the unknown
+//! cells, and sums that are no multiple of the smallest number of the format.
 
-use super::{ExactSum, Tally};
+use super::{ExactSum, Information, TOO_MANY, Tally};
 use crate::real::Real;
 use alloc::string::{String, ToString};
 use core::fmt::Write;
@@ -47,7 +47,7 @@ impl<'de> Deserialize<'de> for ExactSum {
 /// The fields of a tally, as they travel.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Portable {
+struct PortableTally {
     format: String,
     entropy: ExactSum,
     information: ExactSum,
@@ -56,9 +56,19 @@ struct Portable {
     occupied: u64,
 }
 
+/// Those of information.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PortableInformation {
+    format: String,
+    information: ExactSum,
+    unknown: u64,
+    observed: u64,
+}
+
 impl<T: Real> Serialize for Tally<T> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        Portable {
+        PortableTally {
             format: T::FORMAT.to_string(),
             entropy: self.entropy.clone(),
             information: self.information.clone(),
@@ -70,19 +80,25 @@ impl<T: Real> Serialize for Tally<T> {
     }
 }
 
+impl<T: Real> Serialize for Information<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        PortableInformation {
+            format: T::FORMAT.to_string(),
+            information: self.sum.clone(),
+            unknown: self.unknown,
+            observed: self.observed,
+        }
+        .serialize(serializer)
+    }
+}
+
 impl<'de, T: Real> Deserialize<'de> for Tally<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let Portable { format, entropy, information, unknown, free, occupied } =
-            Portable::deserialize(deserializer)?;
-        if format != T::FORMAT {
-            return Err(D::Error::custom(format_args!("a tally of {format} cells, wanted is {}", T::FORMAT)));
-        }
-        let observed = free.checked_add(occupied);
-        let Some((observed, cells)) =
-            observed.and_then(|observed| Some((observed, observed.checked_add(unknown)?)))
-        else {
-            return Err(D::Error::custom("a tally holds at most 2^64 - 1 cells"));
-        };
+        let PortableTally { format, entropy, information, unknown, free, occupied } =
+            PortableTally::deserialize(deserializer)?;
+        require_format::<T, _>(&format)?;
+        let observed = total(free, occupied)?;
+        let cells = total(observed, unknown)?;
         if information.compare(observed).is_gt()
             || entropy.compare(cells).is_gt()
             || entropy.compare(unknown).is_lt()
@@ -91,9 +107,41 @@ impl<'de, T: Real> Deserialize<'de> for Tally<T> {
                 "the sums of a tally are at most 1 bit per cell, and an unknown cell has an entropy of 1 bit",
             ));
         }
-        if [&entropy, &information].iter().any(|sum| !sum.is_multiple_of_power(T::MIN_EXPONENT)) {
-            return Err(D::Error::custom(format_args!("the sums are no sums of numbers of {format}")));
-        }
+        require_sums_of::<T, _>(&[&entropy, &information])?;
         Ok(Self { entropy, information, unknown, free, occupied, format: PhantomData })
+    }
+}
+
+impl<'de, T: Real> Deserialize<'de> for Information<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let PortableInformation { format, information, unknown, observed } =
+            PortableInformation::deserialize(deserializer)?;
+        require_format::<T, _>(&format)?;
+        total(observed, unknown)?;
+        if information.compare(observed).is_gt() {
+            return Err(D::Error::custom("the information is at most 1 bit per observed cell"));
+        }
+        require_sums_of::<T, _>(&[&information])?;
+        Ok(Self { sum: information, unknown, observed, format: PhantomData })
+    }
+}
+
+fn require_format<T: Real, E: Error>(format: &str) -> Result<(), E> {
+    if format == T::FORMAT {
+        Ok(())
+    } else {
+        Err(E::custom(format_args!("a tally of {format} cells, wanted is {}", T::FORMAT)))
+    }
+}
+
+fn total<E: Error>(cells: u64, others: u64) -> Result<u64, E> {
+    cells.checked_add(others).ok_or_else(|| E::custom(TOO_MANY))
+}
+
+fn require_sums_of<T: Real, E: Error>(sums: &[&ExactSum]) -> Result<(), E> {
+    if sums.iter().all(|sum| sum.is_multiple_of_power(T::MIN_EXPONENT)) {
+        Ok(())
+    } else {
+        Err(E::custom(format_args!("the sums are no sums of numbers of {}", T::FORMAT)))
     }
 }

@@ -187,6 +187,33 @@ fn the_smallest_terms_are_kept() {
     assert_eq!(sum.value::<f64>(), 1.0_f64.next_up(), "the tie is broken by what lies a thousand bits below");
 }
 
+/// Parts are summed, and information counts what its tally does.
+#[test]
+fn information_and_tally_count_alike() {
+    let cells = [0.125_f64, 0.5, 0.8125, 0.5, 1.0, 0.0, 0.5].map(|p| Cell::from_occupancy(p).unwrap());
+    let tally: Tally<f64> = cells.into_iter().collect();
+    let information: Information<f64> = cells.into_iter().collect();
+    assert_eq!(information, Information::from(&tally));
+    assert_eq!((information.unknown(), information.observed(), information.cells()), (3, 4, 7));
+    assert_eq!(information.total(), tally.information());
+    let parts = || cells.chunks(3).map(|part| part.iter().copied());
+    assert_eq!(parts().map(Tally::from_iter).sum::<Tally<_>>(), tally);
+    assert_eq!(parts().map(Information::from_iter).sum::<Information<_>>(), information);
+    let mut many = Information::new();
+    for cell in cells {
+        many.add_many(cell, 5);
+    }
+    assert_eq!(many, [(); 5].map(|()| information.clone()).into_iter().sum());
+}
+
+#[test]
+#[should_panic(expected = "at most 2^64 - 1 cells")]
+fn information_of_more_cells_than_can_be_counted_panics_as_documented() {
+    let mut information = Information::<f64>::new();
+    information.add_many(Cell::unknown(), u64::MAX);
+    information.add(Cell::from_occupancy(0.25).unwrap());
+}
+
 #[test]
 #[should_panic(expected = "at most 2^64 - 1 cells")]
 fn more_cells_than_can_be_counted_panic_as_documented() {

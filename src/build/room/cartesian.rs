@@ -179,11 +179,7 @@ impl<M: InverseSensorModel> CartesianRoom<M> {
         use rayon::prelude::*;
         // Rows take their own time: more parts than threads.
         let parts = 16 * rayon::current_num_threads();
-        let merge = |mut sum: Tally<_>, part: Tally<_>| {
-            sum.merge(&part);
-            Ok(sum)
-        };
-        (0..parts).into_par_iter().map(|part| self.tally_part(part, parts)).try_reduce(Tally::new, merge)
+        (0..parts).into_par_iter().map(|part| self.tally_part(part, parts)).sum()
     }
 
     /// The map itself, row 0 the lowest, with its place in the world.

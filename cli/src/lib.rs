@@ -9,7 +9,6 @@
 //! | [`port`] | the library as a port |
 //! | [`maps`] | map files and how to read them |
 //! | `progress` | a bar for long work |
-//! | `cell_cache` | cells by their stored value |
 //! | [`Failure`] | why a command was not done |
 //! | [`output`] | numbers, tables, JSON and CSV, and where they go |
 //! | [`check`] | ports against the vectors |
@@ -21,7 +20,6 @@
 //! | [`paper`] | the figures and the claims of the report |
 //! | [`commands`] | the arguments, and what they ask for |
 
-mod cell_cache;
 pub mod check;
 pub mod commands;
 pub mod convergence;

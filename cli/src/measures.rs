@@ -1,6 +1,5 @@
 //! What is measured of a map, and whether it means anything.
 
-use crate::cell_cache::CellCache;
 use crate::maps::{Cells, Contents, Counted, with_grid};
 use crate::output::{Number, Value};
 use mean_information::cell::Cell;
@@ -38,7 +37,7 @@ impl Measures {
 
     /// Measures a grid.
     pub fn of_grid<E: Encoding>(grid: &Grid<E>) -> Self {
-        Self::of_tally(grid, &tally_of(grid))
+        Self::of_tally(grid, &grid.tally())
     }
 
     /// Measures what was read of a map.
@@ -163,22 +162,6 @@ impl Doubt {
     }
 }
 
-/// [`Grid::tally`], computing the entropy of each value of a map of few values once.
-fn tally_of<E: Encoding>(grid: &Grid<E>) -> Tally<E::Float> {
-    if size_of::<E::Stored>() == 1 {
-        // Counts bytes, which is faster still.
-        return grid.tally();
-    }
-    let mut cache = CellCache::<E>::new();
-    let mut tally = Tally::new();
-    for run in grid.cells().chunk_by(|a, b| a == b) {
-        if let Some(cell) = cache.cell(run[0]) {
-            tally.add_many(cell, run.len() as u64);
-        }
-    }
-    tally
-}
-
 /// Whether the cells' tally is that of cells with `p` 0, 1/2 and 1 only. Sums are exact, so no cell hides in rounding.
 fn is_thresholded<T: Real>(tally: &Tally<T>) -> bool {
     let counts = [(T::zero(), tally.free()), (T::HALF, tally.unknown()), (T::one(), tally.occupied())];
@@ -224,13 +207,6 @@ mod tests {
         assert_eq!(doubt::<Percent>(&[50, -1]), Some(Doubt::NothingObserved));
         assert_eq!(doubt::<Percent>(&[]), Some(Doubt::NoCells));
         assert_eq!(doubt::<Percent>(&[50, 49]), None);
-    }
-
-    #[test]
-    fn the_tally_is_that_of_the_library() {
-        let cells: Vec<f64> = (0..40_000).map(|k| f64::from(k / 3 % 5003) / 5003.0).collect();
-        let grid = grid::<Probability<f64>>(&cells);
-        assert_eq!(tally_of(&grid), grid.tally());
     }
 
     #[test]

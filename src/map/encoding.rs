@@ -2,7 +2,8 @@
 //!
 //! An encoding gives every stored value its exact meaning. Unknown is exact in all of them: `p = 1/2`, `l = 0`.
 
-use super::histogram::histogram;
+use super::histogram::Histogram;
+use super::repeated;
 use crate::cell::{self, Cell};
 use crate::real::Real;
 use crate::tally::{Information, Tally};
@@ -11,8 +12,9 @@ use core::marker::PhantomData;
 #[cfg(feature = "std")]
 use std::sync::LazyLock;
 
-/// What a stored cell means. Implement it to measure maps in a format of your own; then [`Encoding::occupancy`] must lie in
-/// `[0, 1]`, and the methods that can be `None` must be so for the same values.
+/// What a stored cell means. Implement it to measure maps in a format of your own; then [`Encoding::occupancy`] must
+/// lie in `[0, 1]`, and the methods that can be `None` must be so for the same values. For cells of 8 bits a
+/// [`Histogram`] gives a fast [`Encoding::tally`].
 pub trait Encoding: Copy + Debug {
     /// What is stored per cell.
     type Stored: Copy + Debug + PartialEq + Send + Sync;
@@ -120,6 +122,10 @@ impl<T: Real> Encoding for LogOdds<T> {
     fn is_valid(l: T) -> bool {
         !l.is_nan()
     }
+
+    fn tally(cells: &[T]) -> Tally<T> {
+        repeated::tally::<Self>(cells)
+    }
 }
 
 /// A function of a byte, from a table that is made when first needed.
@@ -180,7 +186,7 @@ impl Encoding for Percent {
     }
 
     fn tally(cells: &[i8]) -> Tally<f64> {
-        tally_of_bytes::<Self>(cells)
+        Histogram::from_cells(cells).tally::<Self>()
     }
 }
 
@@ -230,19 +236,6 @@ impl Encoding for MrptLogOdds {
     }
 
     fn tally(cells: &[i8]) -> Tally<f64> {
-        tally_of_bytes::<Self>(cells)
+        Histogram::from_cells(cells).tally::<Self>()
     }
-}
-
-/// Counts each of the 256 values first, then adds 256 exact terms: the same sum, since it is exact.
-fn tally_of_bytes<E: Encoding<Stored = i8>>(cells: &[i8]) -> Tally<E::Float> {
-    let mut tally = Tally::new();
-    for (byte, count) in (0_u8..=255).zip(histogram(cells)) {
-        if count > 0
-            && let Some(cell) = E::cell(byte as i8)
-        {
-            tally.add_many(cell, count);
-        }
-    }
-    tally
 }

@@ -1,81 +1,238 @@
 //! How often each of the 256 bytes occurs: all that a measure needs of a map of bytes.
 //!
 //! Maps of bytes mostly hold very few values. So where a stretch held at most [`FEW`], the next is compared with
-//! these, many cells at once; only where something else turns up are its cells counted one by one.
+//! these, many cells at once; only where something else turns up are its cells counted one by one, or in runs.
 
-/// The cells of a stretch: counts below fit a byte and 64 lanes.
+use super::Encoding;
+use crate::tally::Tally;
+
+/// The most cells of a stretch: counts below fit a byte and 64 lanes.
 const STRETCH: usize = 255 * LANES;
 const LANES: usize = 64;
 /// Comparing with more values takes as long as counting.
 const FEW: usize = 4;
+/// The cells of a run that is counted at once.
+const RUN: usize = 32;
 
-/// The number of cells of each value, at the value's bits as an unsigned byte.
-pub(super) fn histogram(cells: &[i8]) -> [u64; 256] {
-    let mut counts = [0; 256];
-    let mut expected = None;
-    let (stretches, rest) = cells.as_chunks::<STRETCH>();
-    for stretch in stretches {
-        if let Some(values) = expected
-            && let Some(few) = count_few(stretch, values)
-        {
-            for (value, count) in values.into_iter().zip(few) {
-                counts[usize::from(value as u8)] += u64::from(count);
+mod sealed {
+    pub trait Sealed: Copy {
+        /// The same bits, without sign.
+        fn byte(self) -> u8;
+        /// The value of these bits.
+        fn from_byte(byte: u8) -> Self;
+    }
+
+    impl Sealed for u8 {
+        fn byte(self) -> u8 {
+            self
+        }
+
+        fn from_byte(byte: u8) -> Self {
+            byte
+        }
+    }
+
+    impl Sealed for i8 {
+        fn byte(self) -> u8 {
+            self as u8
+        }
+
+        fn from_byte(byte: u8) -> Self {
+            byte as i8
+        }
+    }
+}
+
+/// A stored cell of 8 bits: `u8` or `i8`. Sealed.
+pub trait Byte: sealed::Sealed {}
+
+impl Byte for u8 {}
+impl Byte for i8 {}
+
+/// How often each of the 256 values of an 8-bit map occurs: all that its measures need, in 2 KB for any number of
+/// cells.
+///
+/// Count a map in pieces as they are read, or parts of it on several threads and [merge](Histogram::merge) them; the
+/// [`tally`](Histogram::tally) then has the bits of the whole map's. A cell is counted by its bits, so those that are
+/// `i8` may come as the `u8` of a file. Pieces of some thousand cells are counted fastest: 0.07 ns a cell in long runs,
+/// 0.15 in long runs of many values, 0.34 if all are mixed (measured, 2026-11-22).
+///
+/// ```
+/// use mean_information::map::{Histogram, encoding::Percent};
+/// let mut histogram = Histogram::new();
+/// // 255 is -1, unknown.
+/// for piece in [&[0_u8, 2, 50, 255][..], &[97, 100]] {
+///     histogram.add_cells(piece);
+/// }
+/// assert_eq!((histogram.cells(), histogram.count(-1_i8)), (6, 1));
+/// let tally = histogram.tally::<Percent>();
+/// assert_eq!(tally.mean_information(), 0.9160418999066507); // bits per observed cell
+/// ```
+#[derive(Clone, Debug)]
+pub struct Histogram {
+    counts: [u64; 256],
+    cells: u64,
+    /// All values of the last stretch, if they were few.
+    recent: Option<[u8; FEW]>,
+}
+
+/// By the counts: what was counted last is no matter.
+impl PartialEq for Histogram {
+    fn eq(&self, other: &Self) -> bool {
+        self.counts == other.counts
+    }
+}
+
+impl Eq for Histogram {}
+
+impl Default for Histogram {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Histogram {
+    /// That of no cells.
+    pub const fn new() -> Self {
+        Self { counts: [0; 256], cells: 0, recent: None }
+    }
+
+    /// That of the given cells.
+    ///
+    /// ```
+    /// use mean_information::map::Histogram;
+    /// assert_eq!(Histogram::from_cells(&[7_i8, -7, 7]).count(7_i8), 2);
+    /// ```
+    pub fn from_cells<B: Byte>(cells: &[B]) -> Self {
+        let mut histogram = Self::new();
+        histogram.add_cells(cells);
+        histogram
+    }
+
+    /// Counts more cells.
+    ///
+    /// # Panics
+    /// If there would be more than `2^64 - 1` cells.
+    pub fn add_cells<B: Byte>(&mut self, cells: &[B]) {
+        self.add_to_cells(cells.len() as u64);
+        for stretch in cells.chunks(STRETCH) {
+            if let Some(values) = self.recent
+                && let Some(few) = count_few(stretch, values)
+            {
+                for (value, count) in values.into_iter().zip(few) {
+                    self.counts[usize::from(value)] += u64::from(count);
+                }
+                continue;
             }
-            continue;
-        }
-        let found = count_all(stretch);
-        expected = few_values(&found);
-        for (count, more) in counts.iter_mut().zip(found) {
-            *count += u64::from(more);
+            let found = count_all(stretch);
+            self.recent = few_values(&found);
+            for (count, more) in self.counts.iter_mut().zip(found) {
+                *count += u64::from(more);
+            }
         }
     }
-    for (count, more) in counts.iter_mut().zip(count_all(rest)) {
-        *count += u64::from(more);
+
+    /// Counts the cells of another part of the map.
+    ///
+    /// # Panics
+    /// If there would be more than `2^64 - 1` cells.
+    pub fn merge(&mut self, other: &Self) {
+        self.add_to_cells(other.cells);
+        for (count, more) in self.counts.iter_mut().zip(other.counts) {
+            *count += more;
+        }
     }
-    counts
+
+    fn add_to_cells(&mut self, more: u64) {
+        self.cells = self.cells.checked_add(more).expect("a histogram counts at most 2^64 - 1 cells");
+    }
+
+    /// The number of cells that hold `value`.
+    pub fn count<B: Byte>(&self, value: B) -> u64 {
+        self.counts[usize::from(value.byte())]
+    }
+
+    /// The number of cells of each value, at the value's bits: -1 is at 255.
+    pub fn counts(&self) -> &[u64; 256] {
+        &self.counts
+    }
+
+    /// The number of all cells, also of those whose value an encoding does not allow.
+    pub fn cells(&self) -> u64 {
+        self.cells
+    }
+
+    /// The tally of the cells in an encoding, passing over values that it does not allow: the bits of
+    /// [`Encoding::tally`] of all cells counted. At most 256 exact terms are added (Eqs. 2 to 4; proved,
+    /// [`rounding`](crate::book::rounding)).
+    ///
+    /// An encoding of your own in 8 bits has a fast [`Encoding::tally`] by
+    /// `Histogram::from_cells(cells).tally::<Self>()`.
+    pub fn tally<E: Encoding<Stored: Byte>>(&self) -> Tally<E::Float> {
+        let mut tally = Tally::new();
+        for (byte, &count) in (0..=255).zip(&self.counts) {
+            if count > 0
+                && let Some(cell) = E::cell(sealed::Sealed::from_byte(byte))
+            {
+                tally.add_many(cell, count);
+            }
+        }
+        tally
+    }
 }
 
 /// The values that occur, if they are few; filled up with one of them.
-fn few_values(counts: &[u32; 256]) -> Option<[i8; FEW]> {
+fn few_values(counts: &[u32; 256]) -> Option<[u8; FEW]> {
     let mut present = (0_u8..=255).filter(|&byte| counts[usize::from(byte)] > 0);
     let first = present.next()?;
-    let mut values = [first as i8; FEW];
+    let mut values = [first; FEW];
     for value in &mut values[1..] {
-        *value = present.next().unwrap_or(first) as i8;
+        *value = present.next().unwrap_or(first);
     }
     present.next().is_none().then_some(values)
 }
 
 /// How often each value occurs, if no other does; the first takes what is its own only once.
-fn count_few(stretch: &[i8; STRETCH], values: [i8; FEW]) -> Option<[u32; FEW]> {
+fn count_few<B: Byte>(stretch: &[B], values: [u8; FEW]) -> Option<[u32; FEW]> {
     let mut lanes = [[0_u8; LANES]; FEW];
-    for row in stretch.as_chunks::<LANES>().0 {
+    let (rows, rest) = stretch.as_chunks::<LANES>();
+    for row in rows {
         for (lanes, &value) in lanes.iter_mut().zip(&values) {
             for (count, &cell) in lanes.iter_mut().zip(row) {
-                *count += u8::from(cell == value);
+                *count += u8::from(cell.byte() == value);
             }
         }
     }
     let mut counts = lanes.map(|lanes| lanes.iter().map(|&count| u32::from(count)).sum());
+    for (count, value) in counts.iter_mut().zip(values) {
+        *count += rest.iter().map(|cell| u32::from(cell.byte() == value)).sum::<u32>();
+    }
     for k in 1..FEW {
         if values[k] == values[0] {
             counts[k] = 0;
         }
     }
-    (counts.iter().sum::<u32>() as usize == STRETCH).then_some(counts)
+    (counts.iter().sum::<u32>() as usize == stretch.len()).then_some(counts)
 }
 
-/// One by one, into four tables in turn: equal neighbours would wait for each other.
-fn count_all(cells: &[i8]) -> [u32; 256] {
+/// One by one, into four tables in turn: equal neighbours would wait for each other. But runs at once: grey maps are
+/// mostly runs of many values.
+fn count_all<B: Byte>(cells: &[B]) -> [u32; 256] {
     let mut tables = [[0_u32; 256]; 4];
-    let (eights, rest) = cells.as_chunks::<8>();
-    for eight in eights {
-        for (k, &cell) in eight.iter().enumerate() {
-            tables[k % 4][usize::from(cell as u8)] += 1;
+    let (runs, rest) = cells.as_chunks::<RUN>();
+    for run in runs {
+        let first = run[0].byte();
+        // The last one first: mixed cells should not pay for it.
+        if run[RUN - 1].byte() == first && run.iter().fold(true, |same, cell| same & (cell.byte() == first)) {
+            tables[0][usize::from(first)] += RUN as u32;
+            continue;
+        }
+        for (k, &cell) in run.iter().enumerate() {
+            tables[k % 4][usize::from(cell.byte())] += 1;
         }
     }
     for &cell in rest {
-        tables[0][usize::from(cell as u8)] += 1;
+        tables[0][usize::from(cell.byte())] += 1;
     }
     core::array::from_fn(|byte| tables.iter().map(|table| table[byte]).sum())
 }
@@ -96,20 +253,34 @@ mod tests {
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(24))]
-        /// Stretches of few values, of the same or of others, with a stranger here and there, and of all values.
+        /// Stretches of few values, of the same or of others, with a stranger here and there, and of all values; at
+        /// once, in pieces of one histogram, and as the merged ones of the pieces.
         #[test]
         fn counts_are_those_of_counting(
             parts in prop::collection::vec(
                 (prop::collection::vec(any::<i8>(), 1..7), 0..2 * STRETCH, prop::option::of(any::<i8>())),
                 0..6,
             ),
+            piece in 1..2 * STRETCH,
         ) {
             let mut cells = Vec::new();
             for (values, length, stranger) in parts {
                 cells.extend(values.iter().cycle().take(length));
                 cells.extend(stranger);
             }
-            prop_assert_eq!(histogram(&cells), naive(&cells));
+            let all = Histogram::from_cells(&cells);
+            prop_assert_eq!(all.counts(), &naive(&cells));
+            prop_assert_eq!(all.cells(), cells.len() as u64);
+            let (mut pieces, mut merged) = (Histogram::new(), Histogram::new());
+            for piece in cells.chunks(piece) {
+                let bytes: Vec<u8> = piece.iter().map(|&cell| cell as u8).collect();
+                pieces.add_cells(&bytes);
+                merged.merge(&Histogram::from_cells(piece));
+            }
+            prop_assert_eq!(&pieces, &all);
+            prop_assert_eq!(pieces.cells(), all.cells());
+            prop_assert_eq!(&merged, &all);
+            prop_assert_eq!(merged.cells(), all.cells());
         }
     }
 
@@ -117,7 +288,17 @@ mod tests {
     #[test]
     fn one_value_only() {
         let cells = alloc::vec![-7_i8; 3 * STRETCH + 5];
-        assert_eq!(histogram(&cells), naive(&cells));
-        assert_eq!(few_values(&count_all(&cells)), Some([-7; FEW]));
+        assert_eq!(Histogram::from_cells(&cells).counts(), &naive(&cells));
+        assert_eq!(few_values(&count_all(&cells)), Some([-7_i8 as u8; FEW]));
+    }
+
+    #[test]
+    #[should_panic(expected = "at most 2^64 - 1 cells")]
+    fn a_count_does_not_wrap_around() {
+        let mut histogram = Histogram::from_cells(&[3_u8]);
+        for _ in 0..64 {
+            let same = histogram.clone();
+            histogram.merge(&same);
+        }
     }
 }

@@ -1,5 +1,5 @@
-//! Occupancy maps: a Cartesian [`Grid`] of cells with its [`Geometry`], the [`PolarMap`] about a sensor, the [`encoding`]s that
-//! maps are stored in, and the pooling of cells into coarser ones.
+//! Occupancy maps: a Cartesian [`Grid`] of cells with its [`Geometry`], the [`PolarMap`] about a sensor, the
+//! [`encoding`]s that maps are stored in, the [`Histogram`] of maps of bytes, and the pooling of cells into coarser ones.
 
 pub mod encoding;
 mod geometry;
@@ -7,8 +7,10 @@ mod grid;
 mod histogram;
 mod polar;
 mod pooling;
+mod repeated;
 
 pub use encoding::Encoding;
 pub use geometry::Geometry;
 pub use grid::Grid;
+pub use histogram::{Byte, Histogram};
 pub use polar::PolarMap;

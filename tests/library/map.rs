@@ -4,7 +4,7 @@ use super::common::occupancy;
 use mean_information::cell::{Cell, information};
 use mean_information::map::encoding::{LogOdds, MrptLogOdds, Percent, Probability};
 use mean_information::map::{Encoding, Geometry, Grid, PolarMap};
-use mean_information::{Error, Information, Tally};
+use mean_information::{Error, Information, Real, Tally};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -167,6 +167,23 @@ fn each_encoding_has_its_unknown_and_its_values() {
     let bytes = [-128, -127, -32, 0, 0, 64, 127];
     let cells = bytes.map(|byte| MrptLogOdds::cell(byte).unwrap());
     assert_eq!(MrptLogOdds::tally(&bytes), cells.into_iter().collect());
+}
+
+/// More values than are counted at a time, some of them often, and what is no cell.
+#[test]
+fn repeated_log_odds_are_counted_as_cells_one_by_one() {
+    fn check<T: Real>(count: u32) {
+        let value = |k: u32| T::nearest(f64::from(k % 5003) / 256.0 - 9.5);
+        let mut cells: Vec<T> = (0..count).map(|k| value(if k % 3 == 0 { k % 7 } else { k })).collect();
+        cells.extend([T::nan(), T::infinity(), T::zero(), -T::zero(), T::nan(), T::nan(), T::neg_infinity()]);
+        for start in [0, cells.len() - 7, cells.len() - 1, cells.len()] {
+            let cells = &cells[start..];
+            let one_by_one: Tally<T> = cells.iter().filter_map(|&l| LogOdds::cell(l)).collect();
+            assert_eq!(LogOdds::tally(cells), one_by_one);
+        }
+    }
+    check::<f64>(20_011);
+    check::<f32>(7001);
 }
 
 /// The information of stored cells is that of their tally, and each is counted as the cell that it is.

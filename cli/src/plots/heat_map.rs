@@ -2,9 +2,9 @@
 
 use super::bitmap::Bitmap;
 use super::canvas::Canvas;
+use super::cell_cache::CellCache;
 use super::scale::ticks;
 use super::{LABEL, TITLE, drawing_failure};
-use crate::cell_cache::CellCache;
 use crate::failure::Failure;
 use crate::maps::{Map, with_grid};
 use mean_information::Real;

@@ -4,6 +4,7 @@
 mod axis;
 mod bitmap;
 mod canvas;
+mod cell_cache;
 mod chart;
 mod convergence;
 mod frame;

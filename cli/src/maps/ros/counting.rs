@@ -4,61 +4,55 @@ use super::doubts::Suspect;
 use super::shading::{Place, Shading};
 use crate::maps::Fault;
 use crate::maps::image::{Image, Layout};
+use mean_information::map::Histogram;
 use std::io::{BufRead, Seek};
 use std::ops::Range;
 
 /// Pixels are counted in so many lanes in turn: equal neighbours would wait for each other.
 const LANES: usize = 4;
-/// Bytes that are compared at a time: maps are mostly long runs of one value.
-const RUN: usize = 32;
 
-/// How often each place of a [`Shading`]'s tables occurs, of opaque pixels and of others.
-struct Counts([Vec<[u64; LANES]>; 2]);
-
-impl Counts {
-    fn extend<C: Copy>(&mut self, shading: &Shading<C>, layout: &Layout, pixels: &[u8]) {
-        let Self([opaque, clear]) = self;
-        if layout.pixel_bytes() == 1
-            && let Ok(table) = <&mut [_; 256]>::try_from(opaque.as_mut_slice())
-        {
-            return extend_by(table, pixels);
-        }
-        let mut lane = 0;
-        shading.places(layout, pixels, |place| {
-            match place {
-                Place::Opaque(index) => opaque[index][lane] += 1,
-                Place::Clear(index) => clear[index][lane] += 1,
-            }
-            lane = (lane + 1) % LANES;
-        });
-    }
-
-    /// How often something occurs, of what occurs.
-    fn present(&self) -> impl Iterator<Item = (Place, u64)> {
-        let Self([opaque, clear]) = self;
-        let opaque = (0..).map(Place::Opaque).zip(opaque);
-        let clear = (0..).map(Place::Clear).zip(clear);
-        let all = opaque.chain(clear).map(|(place, lanes)| (place, lanes.iter().sum()));
-        all.filter(|&(_, count)| count > 0)
-    }
+/// How often each place of a [`Shading`]'s tables occurs.
+enum Counts {
+    /// Pixels that are bytes, and their own index.
+    Bytes(Box<Histogram>),
+    /// Opaque pixels, and others.
+    Places([Vec<[u64; LANES]>; 2]),
 }
 
-/// Pixels that are their own index.
-fn extend_by(table: &mut [[u64; LANES]; 256], pixels: &[u8]) {
-    let (runs, rest) = pixels.as_chunks::<RUN>();
-    for run in runs {
-        if *run == [run[0]; RUN] {
-            table[usize::from(run[0])][0] += RUN as u64;
-            continue;
+impl Counts {
+    fn new<C: Copy>(shading: &Shading<C>, layout: &Layout) -> Self {
+        let lengths = shading.lengths();
+        if layout.pixel_bytes() == 1 && lengths[0] == 256 {
+            Self::Bytes(Box::default())
+        } else {
+            Self::Places(lengths.map(|length| vec![[0; LANES]; length]))
         }
-        for turn in run.as_chunks::<LANES>().0 {
-            for (lane, &pixel) in turn.iter().enumerate() {
-                table[usize::from(pixel)][lane] += 1;
+    }
+
+    fn extend<C: Copy>(&mut self, shading: &Shading<C>, layout: &Layout, pixels: &[u8]) {
+        match self {
+            Self::Bytes(histogram) => histogram.add_cells(pixels),
+            Self::Places([opaque, clear]) => {
+                let mut lane = 0;
+                shading.places(layout, pixels, |place| {
+                    match place {
+                        Place::Opaque(index) => opaque[index][lane] += 1,
+                        Place::Clear(index) => clear[index][lane] += 1,
+                    }
+                    lane = (lane + 1) % LANES;
+                });
             }
         }
     }
-    for &pixel in rest {
-        table[usize::from(pixel)][0] += 1;
+
+    /// Of opaque pixels, and of others.
+    fn totals(self) -> [Vec<u64>; 2] {
+        match self {
+            Self::Bytes(histogram) => [histogram.counts().to_vec(), Vec::new()],
+            Self::Places(tables) => {
+                tables.map(|table| table.iter().map(|lanes| lanes.iter().sum()).collect())
+            }
+        }
     }
 }
 
@@ -71,33 +65,17 @@ pub(super) fn count<C: Copy, R: BufRead + Seek>(
     shading: &Shading<C>,
 ) -> Result<Counted<C>, Fault> {
     let layout = image.layout();
-    let mut counts = Counts(shading.lengths().map(|length| vec![[0; LANES]; length]));
+    let mut counts = Counts::new(shading, &layout);
     image.pixels(|pixels| {
         counts.extend(shading, &layout, pixels);
         Ok(())
     })?;
-    let found: u64 = counts.present().map(|(_, count)| count).sum();
+    let [opaque, clear] = counts.totals();
+    let found = opaque.iter().chain(&clear).sum();
     layout.require(found)?;
-    let cells = counts.present().map(|(place, count)| (shading.cell(place), count)).collect();
-    let of_opaque = |sums: &Range<usize>| counts.0[0][sums.clone()].iter().flatten().sum();
-    let suspects = shading.watched().iter().map(|(suspect, sums)| (*suspect, of_opaque(sums))).collect();
-    Ok((cells, suspects))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn runs_and_what_is_between_them_are_counted() {
-        let mut pixels = vec![7; 100];
-        pixels.extend((0..=255).chain([205; 45]).chain(0..3));
-        let mut table = [[0; LANES]; 256];
-        extend_by(&mut table, &pixels);
-        let mut expected = [0; 256];
-        for &pixel in &pixels {
-            expected[usize::from(pixel)] += 1;
-        }
-        assert_eq!(table.map(|lanes| lanes.iter().sum::<u64>()), expected);
-    }
+    let all = (0..).map(Place::Opaque).zip(&opaque).chain((0..).map(Place::Clear).zip(&clear));
+    let present = all.filter(|&(_, &count)| count > 0);
+    let cells = present.map(|(place, &count)| (shading.cell(place), count)).collect();
+    let of = |(suspect, sums): &(Suspect, Range<usize>)| (*suspect, opaque[sums.clone()].iter().sum());
+    Ok((cells, shading.watched().iter().map(of).collect()))
 }

@@ -26,6 +26,19 @@ def report(name, seconds, value, error, evaluations):
     print(name, repr(seconds), repr(value), repr(error), evaluations, sep="\t", flush=True)
 
 
+class Deficit:
+    """What a reading at `t` standard deviations lacks of 1 bit, in nats, by a module's functions; counts its calls."""
+
+    def __init__(self, module):
+        self.module, self.count = module, 0
+
+    def __call__(self, t):
+        self.count += 1
+        exponent = -t * t / 2
+        q = -self.module.expm1(exponent)
+        return -(self.module.exp(exponent) * exponent + (q * self.module.log(q) if q else 0))
+
+
 def arb(bits):
     """Petras' algorithm: Gauss-Legendre with ellipses and bisection; a ball that contains the limit."""
     import flint
@@ -63,18 +76,10 @@ def tanh_sinh():
     """mpmath's own quad at its double precision: an estimate."""
     import mpmath
 
-    count = 0
-
-    def deficit(t):
-        nonlocal count
-        count += 1
-        exponent = -t * t / 2
-        q = -mpmath.expm1(exponent)
-        return -(mpmath.exp(exponent) * exponent + (q * mpmath.log(q) if q else 0))
+    deficit = Deficit(mpmath)
 
     def limit():
-        nonlocal count
-        count = 0
+        deficit.count = 0
         edge = mpmath.sqrt(2 * mpmath.ln2)
         common, first = mpmath.quad(deficit, [0, edge], error=True)
         rest, second = mpmath.quad(deficit, [edge, ALPHA], error=True)
@@ -82,7 +87,7 @@ def tanh_sinh():
         return 1 - (2 * common + rest) / whole, (2 * first + second) / whole
 
     seconds, (value, error) = best(limit, 5)
-    report(f"mpmath {mpmath.__version__} quad", seconds, float(value), float(error), count)
+    report(f"mpmath {mpmath.__version__} quad", seconds, float(value), float(error), deficit.count)
 
 
 def quadpack():
@@ -90,26 +95,17 @@ def quadpack():
     import scipy
     from scipy.integrate import quad
 
-    count = 0
-
-    def deficit(t):
-        nonlocal count
-        count += 1
-        exponent = -t * t / 2
-        q = -math.expm1(exponent)
-        return -(math.exp(exponent) * exponent + (q * math.log(q) if q else 0))
-
+    deficit = Deficit(math)
     edge = math.sqrt(2 * math.log(2))
 
     def limit():
-        nonlocal count
-        count = 0
+        deficit.count = 0
         value, error = quad(deficit, -ALPHA, edge, points=[0], epsabs=0, epsrel=1e-12)[:2]
         whole = (ALPHA + edge) * math.log(2)
         return 1 - value / whole, error / whole
 
     seconds, (value, error) = best(limit, 20)
-    report(f"QUADPACK qagp (SciPy {scipy.__version__})", seconds, value, error, count)
+    report(f"QUADPACK qagp (SciPy {scipy.__version__})", seconds, value, error, deficit.count)
 
 
 for method in (lambda: arb(64), tanh_sinh, quadpack):

@@ -1,9 +1,10 @@
 //! Every mutant that cargo-mutants lists for the library, in minutes: mutant schemata.
 //!
-//!     cargo run --release --manifest-path proofs/mutants/Cargo.toml -- [WORK]
+//!     cargo run --release --manifest-path proofs/mutants/Cargo.toml -- [WORK [FILES...]]
 //!
 //! cargo-mutants compiles each mutant; here all are compiled once, each behind a switch that an environment variable sets, and
-//! a mutant is run against those tests only which reach its place. WORK (default `target/mutants`) gets
+//! a mutant is run against those tests only which reach its place. FILES, globs such as `'src/map/**'`, restrict it to the
+//! mutants of these files. WORK (default `target/mutants`) gets
 //!
 //! * `library/`: the copy of the repository with the switches, and `plain/` without, for `tests/proofs`;
 //! * `log.tsv`: a line for each mutant, verdict, test and name. A name that is there is not run again: delete its line to do so;
@@ -46,12 +47,14 @@ const SUITES: [&str; 11] = [
 const GENERATED: [&str; 2] = ["src/rounded/constants.rs", "src/limit/closed_form/tables.rs"];
 
 fn main() {
-    let work = PathBuf::from(std::env::args().nth(1).unwrap_or_else(|| "target/mutants".to_owned()));
+    let mut arguments = std::env::args().skip(1);
+    let work = PathBuf::from(arguments.next().unwrap_or_else(|| "target/mutants".to_owned()));
+    let files: Vec<String> = arguments.flat_map(|glob| ["--file".to_owned(), glob]).collect();
     fs::create_dir_all(&work).expect("the work directory can be made");
     let root = work.canonicalize().expect("the work directory is there").join("library");
     // Those that .cargo/mutants.toml excludes are run, too: they must not be caught.
-    let mutants = list(&["--no-config"]);
-    let kept: HashSet<String> = list(&[]).into_iter().map(|mutant| mutant.name).collect();
+    let mutants = list(&files, &["--no-config"]);
+    let kept: HashSet<String> = list(&files, &[]).into_iter().map(|mutant| mutant.name).collect();
     println!("{} mutants, {} of them excluded", mutants.len(), mutants.len() - kept.len());
     copy(&root);
 
@@ -146,10 +149,11 @@ fn report(log: &Path, mutants: &[Mutant], refused: &HashMap<u32, String>, kept: 
 }
 
 /// The mutants of cargo-mutants.
-fn list(options: &[&str]) -> Vec<Mutant> {
+fn list(files: &[String], options: &[&str]) -> Vec<Mutant> {
     let mut command = Command::new("cargo");
     command
         .args(["mutants", "--package", "mean-information", "--all-features", "--list", "--json"])
+        .args(files)
         .args(options);
     for file in GENERATED {
         command.args(["--exclude", file]);

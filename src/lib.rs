@@ -23,6 +23,20 @@
 //! # Ok::<(), mean_information::Error>(())
 //! ```
 //!
+//! The eight cells at 0.1 or 0.9 have 0.531 bits each, that at 0.2 has 0.278, that at 0.7 has 0.119; the two at 1/2 have none
+//! and do not count.
+//!
+//! # Where to begin
+//! * **You have a map**: [`map::Grid`] for what mapping programs store, [`Tally::from_occupancies`] for any list of
+//!   occupancies, [`map::Histogram`] for bytes as they are read. For files there is the command `meaninfo`.
+//! * **You have a particle filter**: [`build::Hypotheses`], whose expected map's mean information is the EMMI.
+//! * **You have a sensor model**: [`sensor::InverseSensorModel`] for grids, [`limit::RadialModel`] for their limit.
+//! * **You write a port**: [`operations`], and [`book::porting`].
+//! * **You read the report**: [`book`], and [`book::paper`] for where each of its lines is.
+//! * **You doubt it**: [`book::guarantees`].
+//!
+//! The repository has three programs to begin with, in `examples/`: `measure`, `watch_emmi` and `own_sensor`.
+//!
 //! # What is where
 //! The modules follow the report.
 //!
@@ -54,7 +68,9 @@
 //!   value and the allowed range; functions of floats return NaN outside their domain.
 //!
 //! # What it does not do
-//! It reads no files and draws no pictures; the command `meaninfo` (package `mean-information-cli`) does.
+//! It reads no files and draws no pictures; the command `meaninfo` (package `mean-information-cli`) does. It makes no maps
+//! for robots: rooms, scans at known poses and expected maps are there to show and to test the measure. It compares with no
+//! ground truth: a map that is certain and wrong has a high mean information.
 //!
 //! # Features
 //! * `std` (default): maps of occupancies in floats are measured by the vector unit that the processor turns out to have, to

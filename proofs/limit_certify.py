@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Proves what docs/limit.md, "The error", takes from the tables of src/limit/closed_form/tables.rs.
+"""Proves what docs/closed_form.md, "How it is computed", takes from the tables of src/limit/closed_form/tables.rs.
 
     proofs/limit_certify.py            15 s; ends with status 1 if anything fails
 

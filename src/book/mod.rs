@@ -28,6 +28,7 @@ chapters! {
     fusion;
     expected;
     limit;
+    closed_form;
     convergence;
     erratum;
     figures;

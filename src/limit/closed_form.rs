@@ -6,7 +6,7 @@
 //! ```
 //!
 //! Both depend on `α` alone, and each is one polynomial on each of 233 panels ([`locate`]). The chapter
-//! [`limit`](crate::book::limit) derives the form and proves the bound.
+//! [`closed_form`](crate::book::closed_form) derives the form and proves the bound.
 
 #[rustfmt::skip] // as `proofs/limit_tables.py` writes it
 mod tables;
@@ -40,7 +40,7 @@ const BEYOND: usize = 1 + (((HIGHEST - LOWEST + 1) as usize) << SPLIT);
 /// area   = 1 - 2 (α K + M) / (α + b)^2            M = int_-α^b t H(e^(-t^2/2)) dt
 /// ```
 ///
-/// Error: at most 0.501 ulp in `f32` and `f64`, for every sensor (proved in the chapter [`limit`](crate::book::limit), with its
+/// Error: at most 0.501 ulp in `f32` and `f64`, for every sensor (proved in the chapter [`closed_form`](crate::book::closed_form), with its
 /// tables by ball arithmetic). `α` is the exact quotient of the two floats: it may overflow or underflow.
 ///
 /// The result is in `[0.357, 1]` (radial) or `[0.230, 1]` (area). As `α` falls to 0 it tends to 0.4258 or 0.2308; it rises with

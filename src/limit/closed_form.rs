@@ -40,8 +40,8 @@ const BEYOND: usize = 1 + (((HIGHEST - LOWEST + 1) as usize) << SPLIT);
 /// area   = 1 - 2 (α K + M) / (α + b)^2            M = int_-α^b t H(e^(-t^2/2)) dt
 /// ```
 ///
-/// Error: at most 0.501 ulp in `f32` and `f64`, for every sensor (proved in the chapter [`closed_form`](crate::book::closed_form), with its
-/// tables by ball arithmetic). `α` is the exact quotient of the two floats: it may overflow or underflow.
+/// Error: at most 0.501 ulp in `f32` and `f64`, for every sensor (proved in the chapter
+/// [`closed_form`](crate::book::closed_form), with its tables by ball arithmetic). `α` is the exact quotient of the two floats: it may overflow or underflow.
 ///
 /// The result is in `[0.357, 1]` (radial) or `[0.230, 1]` (area). As `α` falls to 0 it tends to 0.4258 or 0.2308; it rises with
 /// `α` from 1.903 or 2.550 on, but not everywhere below (same chapter). It is 1 where 1 is the nearest float: in `f64` from

@@ -32,6 +32,15 @@ fn the_report_is_reproduced() {
         assert!(first == second, "{name}");
     }
 
+    // The pictures of the chapter on the figures.
+    for name in FIGURES {
+        let kept = read(format!("{}/../docs/figures/{name}", env!("CARGO_MANIFEST_DIR")));
+        assert!(
+            read(folder.path("paper").join(name)) == kept,
+            "meaninfo paper --out docs/figures draws another {name}"
+        );
+    }
+
     // Every claim was checked and none failed; those that the limit and finer cells correct are corrected.
     let claims = json["claims"].as_array().unwrap();
     let verdicts = |verdict: &str| claims.iter().filter(|claim| claim["verdict"] == verdict).count();
@@ -51,6 +60,10 @@ fn the_report_is_reproduced() {
     assert!(
         shows(0).contains("aligned 0.9037, misaligned 0.8735") && shows(0).contains("In 321 cells of (d)")
     );
+    assert!(shows(0).contains("Alone 0.7727 and 0.7729") && shows(0).contains("29 cm and 6 degrees"));
+    assert!(measured("more observed cells").contains("19131 over 18733"));
+    assert!(measured("tends to a maximum value").contains("0.9571 at 1 cm and 0.9517 at 5 mm"));
+    assert!(measured("practical cell sizes").contains("within 0.0185"));
     assert!(shows(1).contains("from 0.832 at 1 m to 0.966 at 0.1 m") && shows(1).contains("196887-fold"));
     let moved = "100 if one is moved by 20 cm, 100 if one is moved by 10 cm, 100 if one is moved by 5 cm, 62 if one is \
                  moved by 2 cm, 55 if one is moved by 1 cm";
@@ -58,6 +71,10 @@ fn the_report_is_reproduced() {
     assert!(measured("closing a large loop").contains("in 12 of 13 runs"));
     assert!(measured("better suited").contains("in 13 of 13 runs"));
     assert!(measured("better suited").contains("more in EMMI in 11."));
+    assert!(measured("better suited").contains("910 bits, where a margin of 1 m of unknown cells adds 5240"));
+    assert!(
+        measured("closing a large loop").contains("own mean in 12; but in 12 it had risen as much before")
+    );
 
     // A page that needs nothing else, with each figure in it and described.
     let page = String::from_utf8(read(folder.path("paper").join("index.html"))).unwrap();

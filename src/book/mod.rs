@@ -30,8 +30,10 @@ chapters! {
     limit;
     closed_form;
     convergence;
-    erratum;
-    figures;
+    erratum shows "figures/convergence.svg";
+    figures shows
+        "figures/figure-1.svg" "figures/figure-2.svg" "figures/figure-3.svg"
+        "figures/figure-4.svg" "figures/figure-5.svg" "figures/loop-closure.svg";
     rounding;
     quadrature;
     integration;

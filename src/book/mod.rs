@@ -35,6 +35,7 @@ chapters! {
         "figures/figure-1.svg" "figures/figure-2.svg" "figures/figure-3.svg"
         "figures/figure-4.svg" "figures/figure-5.svg" "figures/loop-closure.svg";
     rounding;
+    sums;
     quadrature;
     integration;
     guarantees;

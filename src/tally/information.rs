@@ -67,7 +67,7 @@ impl<T: Real> Information<T> {
     /// Of cells by their occupancies; what is no probability is passed over, as in [`Tally::from_occupancies`].
     ///
     /// The sum is that of the correctly rounded information of the cells, exactly (proved,
-    /// [`rounding`](crate::book::rounding)).
+    /// [`sums`](crate::book::sums)).
     pub fn from_occupancies(cells: &[T]) -> Self {
         let mut sums = Self::new();
         #[cfg(feature = "std")]

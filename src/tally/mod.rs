@@ -95,7 +95,7 @@ impl<T: Real> Tally<T> {
     /// The tally of cells by their occupancies; what is no probability is passed over.
     ///
     /// Equal, bit for bit, to the tally of the single cells (Eqs. 2 to 4; proved,
-    /// [`rounding`](crate::book::rounding), "Many cells at once"), and many times as fast (feature `std`): blocks
+    /// [`sums`](crate::book::sums), "Many cells at once"), and many times as fast (feature `std`): blocks
     /// of cells are summed up by the processor's vector unit. The first call makes a table of 192 KB (`f64`),
     /// in a millisecond.
     ///

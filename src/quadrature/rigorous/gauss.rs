@@ -1,13 +1,13 @@
 //! One panel by a Gauss-Legendre rule: `int_-1^1 g = sum w_i g(x_i) + R_n`, with a bound on `R_n`.
 //!
-//! If `g` is analytic on the ellipse with foci ±1 and half axes that add to `ρ > 1`, and `|g| <= M` there, then
-//! `|R_n| <= (64/15) M ρ^-2n / (1 - ρ^-2)` for `n >= 2` (derived in [`integration`](crate::book::integration)).
+//! If `g` is analytic on the ellipse with foci ±1 and half axes that add to `r > 1`, and `|g| <= G` there, then
+//! `|R_n| <= (64/15) G r^-2n / (1 - r^-2)` for `n >= 2` (derived in [`integration`](crate::book::integration)).
 
 use super::nodes::RULES;
 use crate::interval::{Complex, Interval, Wide};
 use crate::scalar::{Integrand, Scalar};
 
-/// The ellipses that are tried, by their `ρ`.
+/// The ellipses that are tried, by their `r`.
 const ELLIPSES: [f64; 4] = [5.0, 3.0, 2.0, 1.5];
 
 /// The upper half of an ellipse lies in five rectangles: from one fraction of the half axis to the other, as high as

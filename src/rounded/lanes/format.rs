@@ -17,7 +17,7 @@ pub(crate) trait Lane: Real {
     const NEAREST: i32;
     /// The coefficients of the polynomial.
     const TERMS: usize;
-    /// A bound on the error before rounding, relative to the value that is summed up: see the chapter on rounding.
+    /// A bound on the error before rounding, relative to the value that is summed up: see the chapter on sums.
     const ERROR: Self;
 
     /// The centre of the cell of the table in which `x` in `[2^-BINADES, 1/2]` lies, and the cell's number in its

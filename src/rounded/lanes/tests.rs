@@ -91,7 +91,7 @@ fn the_series_has_the_coefficients_of_the_chapter() {
     }
 }
 
-/// The bounds are proved in the chapter on rounding. They are sums of the worst of each operation, a few times what
+/// The bounds are proved in the chapter on sums. They are sums of the worst of each operation, a few times what
 /// happens; a bound ten times too large would leave cells open for nothing.
 #[test]
 fn errors_are_within_the_bounds() {
@@ -193,7 +193,7 @@ fn blocks_are_sums_of_cells() {
             let decided = check_all(&double, &filled(&cells));
             let singles: Vec<f32> = cells.iter().map(|&p| p as f32).collect();
             let decided_singles = check_all(&single, &filled(&singles));
-            // Few of a hundred fail the rounding test (docs/rounding.md).
+            // Few of a hundred fail the rounding test (docs/sums.md).
             prop_assert!(scale > 5 || decided > BLOCK / 2 && decided_singles > BLOCK / 2);
         }
     });

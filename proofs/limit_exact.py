@@ -1,6 +1,7 @@
 """The two limits and their Taylor series in Arb's ball arithmetic (python-flint): rigorous, to any precision.
 
-Notation of docs/limit.md and docs/closed_form.md: `A(a)` is the integral of H(e^(-t^2/2)) from 0 to a, `C(a)` that of A, b = sqrt(ln 4), and
+Notation of docs/limit.md and docs/closed_form.md: `A(a)` is the integral of H(e^(-t^2/2)) from 0 to a, `C(a)` that of
+A, b = sqrt(ln 4), and
 
     1 - radial = (A(b) + A(a)) / (a + b),    1 - area = 2 (a A(b) + B + C(a)) / (a + b)^2,    a = z / sigma.
 

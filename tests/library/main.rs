@@ -2,6 +2,7 @@
 
 mod adaptive;
 mod battery;
+mod book;
 mod bounds;
 mod cell;
 mod closed_form;

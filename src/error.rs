@@ -60,6 +60,13 @@ pub enum Error {
         /// Rows.
         height: usize,
     },
+    /// Not one weight for each item.
+    WeightCount {
+        /// Weights given.
+        given: usize,
+        /// What they are for.
+        items: usize,
+    },
     /// More cells than the limit allows: to count them would not end, or to store them take too much memory.
     TooManyCells {
         /// What has the cells.
@@ -107,6 +114,9 @@ impl fmt::Display for Error {
             }
             Self::CellCount { given, width, height } => {
                 write!(f, "{given} cells were given for a map of {width} columns and {height} rows")
+            }
+            Self::WeightCount { given, items } => {
+                write!(f, "number of weights is {given}, allowed is {items}: one for each item")
             }
             Self::TooManyCells { what, count, limit } => {
                 write!(f, "{what} has {count:.3e} cells, allowed are {limit}")

@@ -1,13 +1,12 @@
 //! `meaninfo`: the mean information of occupancy maps, from the command line.
 
-use clap::Parser;
 use mean_information_cli::Failure;
 use mean_information_cli::commands::Arguments;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let done = match Arguments::try_parse() {
+    let done = match Arguments::of_command_line() {
         Ok(arguments) => arguments.command.run(),
         Err(error) if error.use_stderr() => Err(Failure::from(error)),
         // --help and --version; a reader who closes the pipe has seen enough.

@@ -315,7 +315,7 @@ fn what_cannot_be_read_is_refused_and_nothing_written() {
     let says =
         |line: String, words: &[&str]| words.iter().for_each(|word| assert!(line.contains(word), "{line}"));
 
-    says(refused(stack(), weights(&[0.5, 0.5]), &[]), &["w.npy", "number of weights is 2", "one for each"]);
+    says(refused(stack(), weights(&[0.5, 0.5]), &[]), &["w.npy", "number of weights is 2", "allowed is 3"]);
     says(refused(stack(), weights(&[0.5, -0.5, 1.0]), &[]), &["w.npy", "weight 1 is -0.5"]);
     says(refused(stack(), weights(&[0.5, f64::NAN, 1.0]), &[]), &["w.npy", "weight 1 is NaN"]);
     says(refused(stack(), weights(&[0.0; 3]), &[]), &["w.npy", "sum of the weights is 0"]);
@@ -323,7 +323,10 @@ fn what_cannot_be_read_is_refused_and_nothing_written() {
         refused(stack(), npy("<f8", false, &[1, 3], &doubles(&WEIGHTS)), &[]),
         &["2 dimensions (1 x 3)", "the weights"],
     );
-    says(refused(stack(), npy("|i1", false, &[3], &[1, 2, 3]), &[]), &["w.npy", "int8", "float64"]);
+    for (descr, bytes) in [("|i1", 1), ("<i8", 8)] {
+        let line = refused(stack(), npy(descr, false, &[3], &vec![1; 3 * bytes]), &[]);
+        says(line, &["w.npy", "for weights are float32 (f4) and float64 (f8)"]);
+    }
     says(refused(stack(), npy("<f8", false, &[4], &doubles(&WEIGHTS)), &[]), &["w.npy", "its header claims"]);
 
     let flat = npy("<f8", false, &[3, 8], &doubles(&PARTICLES.concat()));
@@ -341,7 +344,9 @@ fn what_cannot_be_read_is_refused_and_nothing_written() {
     says(refused(bad, weights(&WEIGHTS), &[]), &["p.npy", "particle 1: cell at row 1, column 3 is 1.5"]);
     says(refused(stack(), weights(&WEIGHTS), &["--encoding", "mrpt"]), &["p.npy", "mrpt needs int8"]);
     says(refused(stack(), weights(&WEIGHTS), &["--max-cells", "23"]), &["= 24 cells", "limit of 23"]);
-    says(refused(stack(), weights(&WEIGHTS), &["--resolution", "0"]), &["positive"]);
+    for resolution in ["0", "-1"] {
+        says(refused(stack(), weights(&WEIGHTS), &["--resolution", resolution]), &[resolution, "positive"]);
+    }
     let huge = npy("<f8", false, &[usize::MAX, usize::MAX, 4], &[]);
     says(refused(huge, weights(&WEIGHTS), &[]), &["p.npy", "limit"]);
     // An output that is an input.

@@ -72,8 +72,8 @@ impl<'a, E: Encoding> Hypotheses<'a, E> {
     /// Maps and their weights, in the same order.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if there is no map, not one weight for each, or no weight above 0; [`Error::Item`]
-    /// naming the first weight that is NaN, negative or infinite.
+    /// [`Error::OutOfRange`] if there is no map or no weight above 0; [`Error::WeightCount`] if there is not one weight
+    /// for each map; [`Error::Item`] naming the first weight that is NaN, negative or infinite.
     pub fn new(maps: &'a [Grid<E>], weights: &[f64]) -> Result<Self, Error> {
         if maps.is_empty() {
             return Err(Error::out_of_range("number of maps", 0.0, "1 or more"));

@@ -42,8 +42,7 @@ impl Weights {
     /// As many weights as there are `items`.
     pub(super) fn new(weights: &[f64], items: usize) -> Result<Self, Error> {
         if weights.len() != items {
-            let (what, value) = ("number of weights", weights.len() as f64);
-            return Err(Error::out_of_range(what, value, "one for each item"));
+            return Err(Error::WeightCount { given: weights.len(), items });
         }
         if let Some(index) = weights.iter().position(|&w| !(w >= 0.0 && w.is_finite())) {
             let (what, value) = ("weight", weights[index]);

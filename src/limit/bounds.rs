@@ -90,18 +90,19 @@ pub fn polar_with_count<T: Real>(
     Ok(room.beam().with_count(room.limit, observed))
 }
 
-/// The bound on `|MI_h - MI|` for the Cartesian grid of the circular room with cells of side `resolution` (metres) sampled at
-/// their centres, [`CartesianRoom`](crate::build::CartesianRoom), wherever its cells lie; `MI` is the area limit. In bits per
-/// cell, at most 1.
+/// The bound on `|MI_h - MI|` for the Cartesian grid of the circular room with cells of side `resolution` (metres)
+/// sampled at their centres, [`CartesianRoom`](crate::build::CartesianRoom), wherever its cells lie; `MI` is the area
+/// limit. In bits per cell, at most 1.
 ///
 /// ```text
 /// (min(V (e + δ), 0.8403 (8.086 √x h/σ + 2 V / √x)) + MI (e + δ + R)) / (π x^2 - e - δ - R),
 /// e = min(2 x + 1.72 √x + 1, 7.14 x^(2/3) + 1/2 from x = 5 on),
+/// R = 6.31 r^(2/3) + 2, r = z/h - √(ln 4) σ/h
 /// ```
 ///
-/// with `x = L/h` and `V` and `δ` as in [`polar`]; `e` bounds the error of counting the cells in a disc, and `R = 6.31 x^(2/3)`
-/// that of the circle where `p = 1/2`, as many of whose points can be cell centres (0 if `z < σ √(ln 4)`, and `2 e + δ` where
-/// cells are so fine that rounding widens the circle).
+/// with `x = L/h` and `V` and `δ` as in [`polar`]; `e` bounds the error of counting the cells in a disc, and `R` how
+/// many cell centres can lie on the circle of radius `r` cells where `p = 1/2`: 0 if `r < 0`, and `2 e + δ` where
+/// cells are so fine that rounding widens the circle.
 ///
 /// So the error falls at least as `h^(4/3)`.
 ///

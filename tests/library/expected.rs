@@ -249,7 +249,7 @@ fn maps_without_cells_lie_nowhere() {
 fn weights_are_checked() {
     let maps = [row(0.5, 0.0, &[0.25]), row(0.5, 0.0, &[0.75])];
     let refused = |weights: &[f64]| Hypotheses::new(&maps, weights).unwrap_err().to_string();
-    assert_eq!(refused(&[0.5]), "number of weights is 1, allowed is one for each item");
+    assert_eq!(refused(&[0.5]), "number of weights is 1, allowed is 2: one for each item");
     assert_eq!(refused(&[0.5, -0.5]), "weight 1 is -0.5, allowed is not negative and finite");
     assert!(refused(&[f64::NAN, 0.5]).starts_with("weight 0 is NaN"));
     assert!(refused(&[0.5, f64::INFINITY]).starts_with("weight 1 is inf"));

@@ -12,7 +12,7 @@ mod simulate;
 mod sweep;
 
 use crate::failure::Failure;
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::process::ExitCode;
 
 /// The mean information of occupancy maps (Blanco's measure): how certain a map is of the cells it has observed, in
@@ -23,6 +23,22 @@ pub struct Arguments {
     /// What to do.
     #[command(subcommand)]
     pub command: Command,
+}
+
+impl Arguments {
+    /// Those of the command line.
+    ///
+    /// # Errors
+    /// What is wrong with them; also a request for help or for the version.
+    pub fn of_command_line() -> Result<Self, clap::Error> {
+        // A negative number is the value of its option, whose own message says what is allowed.
+        let option = |arg: clap::Arg| {
+            let takes_value = arg.get_action().takes_values() && !arg.is_positional();
+            arg.allow_negative_numbers(takes_value)
+        };
+        let command = Self::command().mut_subcommands(|command| command.mut_args(option));
+        Self::from_arg_matches(&command.try_get_matches()?)
+    }
 }
 
 /// What `meaninfo` can do.

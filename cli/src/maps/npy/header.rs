@@ -8,6 +8,11 @@ use std::io::Read;
 /// The most bytes of a header; numpy itself reads headers up to 10 000.
 const MOST_BYTES: u32 = 64 << 10;
 
+/// What maps may hold, in words.
+pub(super) const MAPS: &str = "are float32 (f4), float64 (f8) and int8 (i1)";
+/// What weights may hold.
+pub(super) const WEIGHTS: &str = "for weights are float32 (f4) and float64 (f8)";
+
 /// The elements that maps are stored in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Element {
@@ -47,7 +52,8 @@ pub(super) struct Header {
 }
 
 impl Header {
-    pub(super) fn read(mut input: impl Read) -> Result<Self, Fault> {
+    /// Reads it; of elements, `allowed` says in words which are.
+    pub(super) fn read(mut input: impl Read, allowed: &str) -> Result<Self, Fault> {
         let mut start = Vec::new();
         input.by_ref().take(8).read_to_end(&mut start)?;
         let [0x93, b'N', b'U', b'M', b'P', b'Y', major, _] = start[..] else {
@@ -74,10 +80,10 @@ impl Header {
         let mut text = vec![0; length as usize];
         input.read_exact(&mut text)?;
         let text = std::str::from_utf8(&text).map_err(|_| malformed("text in UTF-8"))?;
-        Self::parse(text, u64::from(length) + prefix)
+        Self::parse(text, u64::from(length) + prefix, allowed)
     }
 
-    fn parse(text: &str, length: u64) -> Result<Self, Fault> {
+    fn parse(text: &str, length: u64, allowed: &str) -> Result<Self, Fault> {
         let mut rest = Rest(text);
         let (mut descr, mut fortran_order, mut shape) = (None, None, None);
         rest.expect("{")?;
@@ -104,7 +110,7 @@ impl Header {
         let (Some(descr), Some(fortran_order), Some(shape)) = (descr, fortran_order, shape) else {
             return Err(malformed("the keys descr, fortran_order and shape"));
         };
-        let (element, big_endian) = element(descr)?;
+        let (element, big_endian) = element(descr, allowed)?;
         Ok(Self { element, big_endian, fortran_order, shape, length })
     }
 
@@ -137,7 +143,7 @@ fn malformed(allowed: &str) -> Fault {
 }
 
 /// The element of a type string, and whether its bytes run from the high one.
-fn element(descr: &str) -> Result<(Element, bool), Fault> {
+fn element(descr: &str, allowed: &str) -> Result<(Element, bool), Fault> {
     let found = match descr {
         "<f4" | ">f4" => Element::Float32,
         "<f8" | ">f8" => Element::Float64,
@@ -151,9 +157,7 @@ fn element(descr: &str) -> Result<(Element, bool), Fault> {
                 Some('f') => "floats other than float32 and float64",
                 _ => "no numbers",
             };
-            return Err(Fault::new(format!(
-                "holds {what} ({descr:?}); allowed are float32 (f4), float64 (f8) and int8 (i1)"
-            )));
+            return Err(Fault::new(format!("holds {what} ({descr:?}); allowed {allowed}")));
         }
     };
     Ok((found, descr.starts_with('>')))
@@ -233,7 +237,7 @@ mod tests {
     use super::*;
 
     fn parse(text: &str) -> Result<Header, String> {
-        Header::parse(text, 128).map_err(|fault| fault.to_string())
+        Header::parse(text, 128, MAPS).map_err(|fault| fault.to_string())
     }
 
     #[test]

@@ -20,7 +20,7 @@ use std::io::Read;
 /// A [`Fault`] if this is no `.npy` file, holds anything but a two-dimensional array that fits the encoding, is not
 /// exactly as long as its header says, or has a cell that is not allowed: the first one is named.
 pub fn read(mut input: impl Read, length: u64, options: &Options) -> Result<Map, Fault> {
-    let header = Header::read(&mut input)?;
+    let header = Header::read(&mut input, header::MAPS)?;
     let [rows, columns] = header.dimensions("rows and columns")?;
     let cells = stack::with_maps(input, length, &header, [1, rows, columns], options, Alone)?;
     let cells = cells.ok_or_else(|| Fault::new("holds no map"))?;

@@ -1,6 +1,6 @@
 //! Stacks of maps in one array, `[particle, row, column]`, and the weights of the particles.
 
-use super::header::{Element, Header};
+use super::header::{self, Element, Header};
 use crate::maps::cells::Readable;
 use crate::maps::size::{Size, read_pieces, reserve};
 use crate::maps::{ArrayEncoding, Fault, Options};
@@ -28,7 +28,7 @@ pub fn read_stack<W: WithMaps>(
     options: &Options,
     what: W,
 ) -> Result<W::Output, Fault> {
-    let header = Header::read(&mut input)?;
+    let header = Header::read(&mut input, header::MAPS)?;
     let shape = header.dimensions("particles, rows and columns")?;
     if shape.contains(&0) {
         return Err(Fault::new(
@@ -44,7 +44,7 @@ pub fn read_stack<W: WithMaps>(
 /// A [`Fault`] if this is no `.npy` file, holds anything but a list of float32 or float64, or is not exactly as long
 /// as its header says.
 pub fn read_weights(mut input: impl Read, length: u64, options: &Options) -> Result<Vec<f64>, Fault> {
-    let header = Header::read(&mut input)?;
+    let header = Header::read(&mut input, header::WEIGHTS)?;
     let [count] = header.dimensions("the weights")?;
     let size = Size::within(count, 1, options.max_cells)?;
     header.check_length(length, count)?;
@@ -55,7 +55,7 @@ pub fn read_weights(mut input: impl Read, length: u64, options: &Options) -> Res
             Ok(weights.into_iter().map(f64::from).collect())
         }
         Element::Float64 => values.take::<f64, 8>(size.cells(), f64::from_le_bytes),
-        Element::Int8 => Err(Fault::new("holds int8; allowed for weights are float32 and float64")),
+        Element::Int8 => Err(Fault::new(format!("holds int8; allowed {}", header::WEIGHTS))),
     }
 }
 

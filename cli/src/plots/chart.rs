@@ -2,7 +2,7 @@
 
 use super::axis::{Axis, power_of_ten};
 use super::frame::{Side, curve, frame, legend};
-use super::scale::ticks;
+use super::scale::{logarithmic_ticks, ticks};
 use super::{Drawing, LABEL, TITLE};
 use crate::output::short;
 use plotters::coord::Shift;
@@ -80,7 +80,7 @@ pub enum Colour {
 }
 
 impl Colour {
-    fn rgb(self) -> RGBColor {
+    pub(super) const fn rgb(self) -> RGBColor {
         match self {
             Self::Blue => RGBColor(0, 90, 170),
             Self::Orange => RGBColor(190, 75, 0),
@@ -105,12 +105,7 @@ impl Scale {
         let range = low - margin * span..high + (margin + free) * span;
         let ticks = match self {
             Self::Linear => ticks(range.start, high + margin * span, 7).into_iter().map(|(x, _)| x).collect(),
-            Self::Logarithmic => {
-                let digits: &[f64] = if span > 3.5 { &[1.0] } else { &[1.0, 2.0, 5.0] };
-                let decades = range.start.floor() as i32..=range.end.ceil() as i32;
-                let ticks = decades.flat_map(|n| digits.iter().map(move |d| f64::from(n) + libm::log10(*d)));
-                ticks.filter(|x| (range.start..=high + margin * span).contains(x)).collect()
-            }
+            Self::Logarithmic => logarithmic_ticks(&(range.start..=high + margin * span)),
         };
         Axis { range, ticks }
     }

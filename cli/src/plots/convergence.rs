@@ -2,7 +2,9 @@
 //! both kinds of grid.
 
 use super::axis::Axis;
+use super::chart::Colour;
 use super::frame::{Side, curve, frame, legend};
+use super::scale::logarithmic_ticks;
 use super::{Drawing, TITLE};
 use crate::convergence::{Convergence, GridKind, Series};
 use crate::output::{decimal_exponent, short};
@@ -40,11 +42,7 @@ impl<'a> ConvergencePlot<'a> {
         let (first, last) = (logarithms[0], logarithms[logarithms.len() - 1]);
         let margin = 0.03 * (last - first) + 0.02;
         let range = first - margin..last + margin;
-        // 1, 2 and 5 times powers of ten, or the powers alone where they are many.
-        let digits: &[f64] = if last - first > 3.0 { &[1.0] } else { &[1.0, 2.0, 5.0] };
-        let decades = range.start.floor() as i32..=range.end.ceil() as i32;
-        let ticks = decades.flat_map(|n| digits.iter().map(move |d| f64::from(n) + libm::log10(*d)));
-        Axis { ticks: ticks.filter(|x| range.contains(x)).collect(), range }
+        Axis { ticks: logarithmic_ticks(&(range.start..=range.end)), range }
     }
 
     /// From below the lowest value and limit to above the highest, in steps of 1, 2 or 5 times a power of ten, but no tick
@@ -69,8 +67,8 @@ impl<'a> ConvergencePlot<'a> {
 
 fn colour(kind: GridKind) -> RGBColor {
     match kind {
-        GridKind::Polar => RGBColor(0, 90, 170),
-        GridKind::Cartesian => RGBColor(190, 75, 0),
+        GridKind::Polar => Colour::Blue.rgb(),
+        GridKind::Cartesian => Colour::Orange.rgb(),
     }
 }
 

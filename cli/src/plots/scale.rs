@@ -1,6 +1,7 @@
 //! Round numbers along an axis.
 
 use crate::output::{decimal_exponent, short};
+use std::ops::RangeInclusive;
 
 /// The multiples of 1, 2 or 5 times a power of ten within `start..=end`, at most `most` and one, with their texts.
 ///
@@ -21,6 +22,23 @@ pub(super) fn ticks(start: f64, end: f64, most: usize) -> Vec<(f64, String)> {
         chosen = fitting;
     }
     chosen
+}
+
+/// The decimal logarithms, within a range of them, of 1, 2 and 5 times powers of ten; of the powers alone where they are
+/// many, of the numbers of [`ticks`] where there are fewer than two.
+pub(super) fn logarithmic_ticks(range: &RangeInclusive<f64>) -> Vec<f64> {
+    let (start, end) = (*range.start(), *range.end());
+    let digits: &[f64] = if end - start > 3.5 { &[1.0] } else { &[1.0, 2.0, 5.0] };
+    let decades = start.floor() as i32..=end.ceil() as i32;
+    let all = decades.flat_map(|n| digits.iter().map(move |d| f64::from(n) + libm::log10(*d)));
+    let within: Vec<f64> = all.filter(|x| range.contains(x)).collect();
+    if within.len() < 2 {
+        return ticks(libm::exp10(start), libm::exp10(end), 5)
+            .into_iter()
+            .map(|(x, _)| libm::log10(x))
+            .collect();
+    }
+    within
 }
 
 /// `digits * 10^n` and its text.
@@ -56,6 +74,18 @@ mod tests {
         assert_eq!(texts(-0.35, -0.05, 3), ["-0.3", "-0.2", "-0.1"]);
         assert_eq!(texts(499.0, 509.0, 5), ["500", "502", "504", "506", "508"]);
         assert_eq!(texts(3.1, 3.9, 0), ["3.5"]);
+    }
+
+    #[test]
+    fn logarithmic_axes() {
+        let texts = |start: f64, end: f64| {
+            let ticks = logarithmic_ticks(&(libm::log10(start)..=libm::log10(end)));
+            ticks.into_iter().map(|x| short(libm::exp10(x))).collect::<Vec<_>>()
+        };
+        assert_eq!(texts(0.03, 3.0), ["0.05", "0.1", "0.2", "0.5", "1", "2"]);
+        assert_eq!(texts(0.03, 300.0), ["0.1", "1", "10", "100"]);
+        assert_eq!(texts(0.0107, 0.0127), ["0.011", "0.0115", "0.012", "0.0125"]);
+        assert_eq!(texts(0.11, 0.33), ["0.15", "0.2", "0.25", "0.3"]);
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Mean information and total entropy against cell size: the contrast behind Fig. 2d of the paper.
 
 use super::axis::{Axis, power_of_ten};
+use super::chart::Colour;
 use super::frame::{Side, curve, frame, legend};
 use super::{Drawing, TITLE};
 use crate::output::short;
@@ -11,8 +12,8 @@ use plotters::prelude::*;
 const SIZE: (u32, u32) = (900, 780);
 /// The part of an axis above its highest tick, where the legend meets no curve.
 const LEGEND_ROOM: f64 = 0.2;
-const MEAN_INFORMATION: RGBColor = RGBColor(0, 90, 170);
-const ENTROPY: RGBColor = RGBColor(190, 75, 0);
+const MEAN_INFORMATION: RGBColor = Colour::Blue.rgb();
+const ENTROPY: RGBColor = Colour::Orange.rgb();
 
 /// Two panels over one axis of cell sizes, which doubles from tick to tick.
 #[derive(Debug)]

@@ -5,7 +5,7 @@
 #![allow(missing_docs)]
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use mean_information::map::encoding::{Encoding, MrptLogOdds, Percent, Probability};
+use mean_information::map::encoding::{Encoding, LogOdds, MrptLogOdds, Percent, Probability};
 use mean_information::{Real, Tally};
 use std::hint::black_box;
 
@@ -86,5 +86,14 @@ fn stored_bytes(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, floats, stored_bytes);
+/// Of a sensor of three steps, where scans add up to few values; and of Eq. 5, where hardly one occurs again.
+fn log_odds(criterion: &mut Criterion) {
+    let counts = bytes(|_| true).into_iter().map(|byte| (f64::from(byte & 3), f64::from(byte >> 4 & 7)));
+    let steps: Vec<f64> = counts.map(|(hits, misses)| 0.85 * hits - 0.4 * misses).collect();
+    encoding::<LogOdds<f64>>(criterion, "log-odds, few values", &steps);
+    let all: Vec<f64> = occupancies::<f64>().into_iter().map(|p| 12.0 * p - 6.0).collect();
+    encoding::<LogOdds<f64>>(criterion, "log-odds, all different", &all);
+}
+
+criterion_group!(benches, floats, stored_bytes, log_odds);
 criterion_main!(benches);

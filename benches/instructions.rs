@@ -7,12 +7,13 @@
 #![allow(clippy::disallowed_methods)]
 #![allow(missing_docs)]
 
+use mean_information::build::CartesianRoom;
 use mean_information::cell::{
     Cell, entropy, information, information_from_log_odds, occupancy_from_log_odds,
 };
-use mean_information::elementary::{exp, ln};
+use mean_information::elementary::{exp, ln, sqrt};
 use mean_information::limit::{Weight, closed_form};
-use mean_information::sensor::GaussianSensor;
+use mean_information::sensor::{GaussianSensor, InverseSensorModel};
 use mean_information::{ExactSum, Real};
 use std::hint::black_box;
 use std::process::Command;
@@ -62,8 +63,20 @@ fn add(x: f64) -> f64 {
     x
 }
 
+/// From a sensor somewhere in its cell to the centre of cell `(i, i / 2)`.
+fn distance(i: f64) -> f64 {
+    let sensor = GaussianSensor::new(2.0, 0.2).expect("a sensor");
+    let room = CartesianRoom::new(sensor, 0.05, [0.3, 0.1]).expect("a room");
+    room.distance(i as i64, i as i64 / 2).expect("a cell")
+}
+
+fn plateau(u: f64) -> f64 {
+    GaussianSensor::new(2.0 + u, 0.05).map_or(0.0, |sensor| sensor.plateau())
+}
+
 fn functions() -> Vec<Function> {
     let uniform = |u: f64| u;
+    let cells = |u: f64| (400.0 * u).floor();
     let odds = |u: f64| 16.0 * (u - 0.5);
     // From e^-8 to e^8.
     let spread = |u: f64| (16.0 * (u - 0.5)).exp();
@@ -92,6 +105,10 @@ fn functions() -> Vec<Function> {
         function!("elementary::ln", f64, spread, ln::<f64>, ln_mean),
         function!("elementary::ln", f32, spread, ln::<f32>, ln_mean),
         function!("ln of the C library", f64, spread, f64::ln, ln_mean),
+        function!("elementary::sqrt", f64, uniform, sqrt::<f64>, [0.62, 0.71]),
+        function!("elementary::sqrt", f32, uniform, sqrt::<f32>, [0.62, 0.71]),
+        function!("CartesianRoom::distance", f64, cells, distance, [0.01, 30.0]),
+        function!("GaussianSensor::plateau", f64, uniform, plateau, [0.0, 2.0]),
         function!("limit::closed_form, radial", f64, rooms, limit::<f64>, [0.8, 0.99]),
         function!("limit::closed_form, radial", f32, rooms, limit::<f32>, [0.8, 0.99]),
         function!("ExactSum::add to nothing", f64, uniform, add, [0.45, 0.55]),

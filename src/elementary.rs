@@ -48,7 +48,7 @@ pub fn sqrt<T: Real>(x: T) -> T {
     let shift = m.leading_zeros() as i32 + 54;
     let shift = shift + ((e - shift) & 1);
     let square = u128::from(m) << shift;
-    let root = square.isqrt();
+    let root = u128::from(rounded::square_root(square));
     rounded::round_integer(root, (e - shift) / 2, root * root != square)
 }
 

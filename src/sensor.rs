@@ -102,11 +102,23 @@ impl<T: Real> InverseSensorModel for GaussianSensor<T> {
     /// Free space so far from the obstacle that `p` is below every float, or all of it if `z` is below `σ` so far that `p` is 1.
     fn plateau(&self) -> T {
         let nearest = self.occupancy(T::zero());
+        // e^-r is below half of the smallest number beyond r = n ln 2; four roundings, each by half an ulp of z at most.
+        let n = T::from_parts((1 - T::MIN_EXPONENT) as u64, 0);
+        let two = T::one() + T::one();
+        let edge = self.range - self.sigma * sqrt(two * ln(two) * n);
+        let margin = self.range * T::from_parts(8, 0) * T::epsilon() + T::min_positive_value();
+        let is_flat = |rho: T| {
+            if nearest.is_zero() && (rho - edge).abs() > margin {
+                rho < edge
+            } else {
+                self.occupancy(rho) == nearest
+            }
+        };
         let (mut plateau, mut end) = (T::zero(), self.range);
         // The rounded model does not fall before z: two distances at one occupancy have it between them. Bisection.
         for _ in 0..T::PRECISION {
             let middle = plateau + (end - plateau) * T::HALF;
-            if self.occupancy(middle) == nearest {
+            if is_flat(middle) {
                 plateau = middle;
             } else {
                 end = middle;

@@ -37,7 +37,8 @@ impl Measures {
 
     /// Measures a grid.
     pub fn of_grid<E: Encoding>(grid: &Grid<E>) -> Self {
-        Self::of_tally(grid, &grid.tally())
+        let marked = || grid.cells().iter().any(|&stored| stored == E::unknown());
+        Self::new([grid.width(), grid.height()], &grid.tally(), marked)
     }
 
     /// Measures what was read of a map.
@@ -51,10 +52,10 @@ impl Measures {
         }
     }
 
-    /// The measures of a grid whose sums are known.
-    pub fn of_tally<E: Encoding>(grid: &Grid<E>, tally: &Tally<E::Float>) -> Self {
-        let marked = || grid.cells().iter().any(|&stored| stored == E::unknown());
-        Self::new([grid.width(), grid.height()], tally, marked)
+    /// The measures of an expected map, of which only the sums are known: a cell that is unknown there is not marked so
+    /// by anyone, but no percentage either.
+    pub fn of_expected<T: Real>(size: [usize; 2], tally: &Tally<T>) -> Self {
+        Self::new(size, tally, || tally.unknown() > 0)
     }
 
     /// With whether a cell is marked as unknown, not only as `p = 1/2`.

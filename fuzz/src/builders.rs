@@ -90,6 +90,7 @@ where
     }
     assert_eq!(map.scans(), done);
     let Ok(grid) = map.log_odds() else { return };
+    assert_eq!(map.tally(), grid.tally());
     assert!(grid.cells().len() <= 1 << 14);
     assert!(grid.cells().iter().all(|l| l.abs() <= 3.5 * done as f64));
     if done == scans.len() as u64 {
@@ -127,6 +128,7 @@ pub fn expected(bytes: &[u8]) {
     };
     let (grid, tally) = (expected.grid(), expected.tally());
     assert_eq!(tally.cells(), grid.cells().len() as u64);
+    assert!(hypotheses.expected_tally().is_ok_and(|alone| alone == *tally));
     let mean = tally.mean_information();
     assert!((0.0..=1.0).contains(&mean), "{mean}");
 

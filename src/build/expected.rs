@@ -4,17 +4,21 @@
 use super::alignment::Alignment;
 use super::raster::too_many;
 use super::weights::{Mean, Weights};
-use crate::cell::{Cell, State};
+use crate::cell::State;
 use crate::error::Error;
 use crate::map::encoding::{LogOdds, Probability};
 use crate::map::{Encoding, Grid};
 use crate::real::Real;
-use crate::rounded::mean;
+use crate::rounded::Natural;
+use crate::rounded::mean::{self, Both};
 use crate::tally::Tally;
-use alloc::vec::Vec;
+use alloc::{vec, vec::Vec};
 use core::cmp::Ordering;
+use core::ops::Range;
 use num_traits::Zero;
 use num_traits::float::FloatCore;
+#[cfg(feature = "rayon")]
+use rayon::prelude::*;
 
 /// Maps of one place, each with a weight: the particles of a filter.
 ///
@@ -41,7 +45,7 @@ pub struct Hypotheses<'a, E: Encoding> {
     max_cells: u64,
 }
 
-/// An expected map, and the sums over its cells.
+/// An expected map, and the sums over its cells. Memory: one float for a cell.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExpectedMap<T: Real> {
     grid: Grid<Probability<T>>,
@@ -98,17 +102,83 @@ impl<'a, E: Encoding> Hypotheses<'a, E> {
     /// number of cells from the others' (within 1/1024, for the rounding of file formats); [`Error::TooManyCells`] if
     /// the least grid that holds all maps exceeds the limit.
     pub fn expected_map(&self) -> Result<ExpectedMap<E::Float>, Error> {
-        let mut tally = Tally::new();
-        let mut occupancies = Vec::with_capacity(self.maps.len());
-        let grid = self.pool(E::Float::HALF, |stored| {
-            occupancies.clear();
-            occupancies.extend(stored.iter().filter_map(|&stored| E::occupancy(stored)));
-            let mean = self.weights.mean(&occupancies);
-            count(&mut tally, &mean);
-            Some(mean.nearest())
-        })?;
-        tally.add_many(Cell::unknown(), grid.cells().len() as u64 - tally.cells());
-        Ok(ExpectedMap { grid, tally })
+        let alignment = self.alignment()?;
+        let mut cells = self.room(&alignment)?;
+        let (mut tally, mut marginals) = (Tally::new(), Marginals::<E>::new(&self.weights));
+        for row in 0..alignment.height {
+            self.each_of_row(&alignment, row, |_, stored| {
+                let marginal = marginals.of(stored);
+                tally.add_fixed(marginal.state, marginal.both);
+                cells.push(marginal.nearest);
+                Ok(())
+            })?;
+        }
+        let Alignment { geometry, width, height, .. } = alignment;
+        Ok(ExpectedMap { grid: Grid::new(width, height, geometry, cells)?, tally })
+    }
+
+    /// The sums over the expected map, without the map: those of [`ExpectedMap::tally`], to the bit.
+    ///
+    /// Memory: nothing for a cell, some 40 bytes for a map. A cell that no map knows, or all know to be the same as the
+    /// cell before on which all agreed, takes no arithmetic.
+    ///
+    /// # Errors
+    /// As [`Self::expected_map`], of which the limit holds, too.
+    ///
+    /// ```
+    /// use mean_information::build::Hypotheses;
+    /// use mean_information::map::{Geometry, Grid, encoding::MrptLogOdds};
+    /// let map = |cells: [i8; 3]| {
+    ///     Grid::<MrptLogOdds>::new(3, 1, Geometry::new(0.25, [1.0, 0.5])?, cells.to_vec())
+    /// };
+    /// let maps = [map([32, 16, 0])?, map([32, -16, 0])?];
+    /// let tally = Hypotheses::new(&maps, &[6.0, 2.0])?.expected_tally()?;
+    /// assert_eq!((tally.free(), tally.occupied(), tally.unknown()), (2, 0, 1));
+    /// assert_eq!(tally.mean_information(), 0.0); // EMMI
+    /// # Ok::<(), mean_information::Error>(())
+    /// ```
+    pub fn expected_tally(&self) -> Result<Tally<E::Float>, Error> {
+        let alignment = self.alignment()?;
+        self.tally_of_rows(&alignment, 0..alignment.height)
+    }
+
+    /// [`Self::expected_tally`] by as many threads as rayon has: the same bits for any number of them.
+    ///
+    /// # Errors
+    /// As [`Self::expected_tally`].
+    ///
+    /// ```
+    /// use mean_information::build::Hypotheses;
+    /// use mean_information::map::{Geometry, Grid, encoding::Percent};
+    /// let map = |cells: [i8; 3]| Grid::<Percent>::new(1, 3, Geometry::new(0.25, [1.0, 0.5])?, cells.to_vec());
+    /// let maps = [map([32, 16, -1])?, map([33, 99, 50])?];
+    /// let hypotheses = Hypotheses::new(&maps, &[6.0, 2.0])?;
+    /// assert_eq!(hypotheses.par_expected_tally()?, hypotheses.expected_tally()?);
+    /// # Ok::<(), mean_information::Error>(())
+    /// ```
+    #[cfg(feature = "rayon")]
+    pub fn par_expected_tally(&self) -> Result<Tally<E::Float>, Error> {
+        let alignment = self.alignment()?;
+        let merge = |mut sum: Tally<_>, part: Tally<_>| {
+            sum.merge(&part);
+            Ok(sum)
+        };
+        (0..alignment.height)
+            .into_par_iter()
+            .map(|row| self.tally_of_rows(&alignment, row..row + 1))
+            .try_reduce(Tally::new, merge)
+    }
+
+    fn tally_of_rows(&self, alignment: &Alignment, rows: Range<usize>) -> Result<Tally<E::Float>, Error> {
+        let (mut tally, mut marginals) = (Tally::new(), Marginals::<E>::new(&self.weights));
+        for row in rows {
+            self.each_of_row(alignment, row, |_, stored| {
+                let marginal = marginals.of(stored);
+                tally.add_fixed(marginal.state, marginal.both);
+                Ok(())
+            })?;
+        }
+        Ok(tally)
     }
 
     /// The *log-linear pool*: the weighted mean of the log-odds, `sum w_i l_i / sum w_i`, the exact mean rounded once
@@ -122,25 +192,34 @@ impl<'a, E: Encoding> Hypotheses<'a, E> {
     /// As [`Self::expected_map`]; [`Error::Cell`] if a cell is certainly free in one map and certainly occupied in
     /// another, both of positive weight.
     pub fn log_linear_pool(&self) -> Result<Grid<LogOdds<E::Float>>, Error> {
+        let alignment = self.alignment()?;
+        let mut cells = self.room(&alignment)?;
         let mut finite = Vec::with_capacity(self.maps.len());
-        self.pool(E::Float::zero(), |stored| {
-            finite.clear();
-            let (mut free, mut occupied) = (false, false);
-            for (index, &stored) in stored.iter().enumerate() {
-                let l = E::log_odds(stored)?;
-                if l.is_infinite() && self.weights.is_positive(index) {
-                    free |= l < E::Float::zero();
-                    occupied |= l > E::Float::zero();
+        for row in 0..alignment.height {
+            self.each_of_row(&alignment, row, |column, stored| {
+                finite.clear();
+                let (mut free, mut occupied) = (false, false);
+                for (index, l) in stored.iter().filter_map(|&stored| E::log_odds(stored)).enumerate() {
+                    if l.is_infinite() && self.weights.is_positive(index) {
+                        free |= l < E::Float::zero();
+                        occupied |= l > E::Float::zero();
+                    }
+                    finite.push(if l.is_infinite() { E::Float::zero() } else { l });
                 }
-                finite.push(if l.is_infinite() { E::Float::zero() } else { l });
-            }
-            match (free, occupied) {
-                (true, true) => None,
-                (true, false) => Some(E::Float::neg_infinity()),
-                (false, true) => Some(E::Float::infinity()),
-                (false, false) => Some(self.weights.mean(&finite).nearest()),
-            }
-        })
+                cells.push(match (free, occupied) {
+                    (true, true) => {
+                        let (value, allowed) = (f64::NAN, "log-odds that are not infinite of both signs");
+                        return Err(Error::Cell { row, column, value, allowed });
+                    }
+                    (true, false) => E::Float::neg_infinity(),
+                    (false, true) => E::Float::infinity(),
+                    (false, false) => self.weights.mean(&finite).nearest(),
+                });
+                Ok(())
+            })?;
+        }
+        let Alignment { geometry, width, height, .. } = alignment;
+        Grid::new(width, height, geometry, cells)
     }
 
     /// The weighted mean of the maps' own mean information, rounded once to nearest: what EMMI would be if the
@@ -150,48 +229,106 @@ impl<'a, E: Encoding> Hypotheses<'a, E> {
         self.weights.mean(&values).nearest()
     }
 
-    /// The grid of what `of` makes of the values stored for a cell, `unknown` where no map knows it.
-    fn pool<P: Encoding>(
-        &self,
-        unknown: P::Stored,
-        mut of: impl FnMut(&[E::Stored]) -> Option<P::Stored>,
-    ) -> Result<Grid<P>, Error> {
-        let Alignment { geometry, width, height, offsets } = Alignment::of(self.maps, self.max_cells)?;
-        let mut cells = Vec::new();
-        let count = width * height;
+    fn alignment(&self) -> Result<Alignment, Error> {
+        Alignment::of(self.maps, self.max_cells)
+    }
+
+    /// Memory for as many cells as the grid has.
+    fn room<C>(&self, alignment: &Alignment) -> Result<Vec<C>, Error> {
+        let (mut cells, count) = (Vec::new(), alignment.width * alignment.height);
         cells.try_reserve_exact(count).map_err(|_| too_many(count as u128, self.max_cells))?;
-        let mut stored = Vec::with_capacity(self.maps.len());
-        for row in 0..height {
-            for column in 0..width {
-                stored.clear();
-                stored.extend(self.maps.iter().zip(&offsets).map(|(map, &[left, lower])| {
-                    let row = row.checked_sub(lower).and_then(|row| map.row(row));
-                    let cell = column.checked_sub(left).and_then(|column| row?.get(column));
-                    cell.copied().unwrap_or(E::unknown())
-                }));
-                let cell = if stored.iter().all(|&stored| stored == E::unknown()) {
-                    Some(unknown)
-                } else {
-                    of(&stored)
-                };
-                let value = f64::NAN;
-                let allowed = "log-odds that are not infinite of both signs";
-                cells.push(cell.ok_or(Error::Cell { row, column, value, allowed })?);
+        Ok(cells)
+    }
+
+    /// Hands the column and what each map stores there to `of`, for each cell of a row.
+    fn each_of_row(
+        &self,
+        alignment: &Alignment,
+        row: usize,
+        mut of: impl FnMut(usize, &[E::Stored]) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        let part = |(map, &[left, lower]): (&'a Grid<E>, &[usize; 2])| {
+            (left, row.checked_sub(lower).and_then(|row| map.row(row)).unwrap_or(&[]))
+        };
+        let parts: Vec<(usize, &[E::Stored])> = self.maps.iter().zip(&alignment.offsets).map(part).collect();
+        let mut stored = vec![E::unknown(); parts.len()];
+        for column in 0..alignment.width {
+            for (stored, &(left, part)) in stored.iter_mut().zip(&parts) {
+                // Before its left end a map has no cell either: the difference wraps around.
+                *stored = part.get(column.wrapping_sub(left)).copied().unwrap_or(E::unknown());
             }
+            of(column, &stored)?;
         }
-        Grid::new(width, height, geometry, cells)
+        Ok(())
     }
 }
 
-/// Counts the cell of an exact mean of occupancies.
-fn count<T: Real>(tally: &mut Tally<T>, mean: &Mean<'_>) {
-    let distance = mean.beside_half();
-    let (state, minor) = match distance.sign() {
-        Ordering::Less => (State::Free, mean.leading()),
-        Ordering::Greater => (State::Occupied, mean.complement().leading()),
-        Ordering::Equal => return tally.add(Cell::unknown()),
-    };
-    // Of a certain mean, 0 or 1, nothing is left.
-    let both = distance.leading().and_then(mean::beside_unknown).or_else(|| minor.map(mean::of_minor));
-    tally.add_fixed(state, both.unwrap_or(mean::CERTAIN));
+/// The marginal of a cell: the nearest float, and what the sums take.
+#[derive(Clone, Copy)]
+struct Marginal<T> {
+    nearest: T,
+    state: State,
+    both: Both,
+}
+
+impl<T: Real> Marginal<T> {
+    /// Of an exact mean of occupancies.
+    fn of(mean: &Mean<'_>) -> Self {
+        let beside_half = mean.beside_half();
+        let state = match beside_half.sign() {
+            Ordering::Less => State::Free,
+            Ordering::Greater => State::Occupied,
+            Ordering::Equal => State::Unknown,
+        };
+        let first = mean.leading();
+        let nearest = first.map_or(T::zero(), |(leading, cut)| leading.nearest(cut));
+        // Of a certain mean, 0 or 1, nothing is left.
+        let minor = || {
+            let minor = if state == State::Free { first } else { mean.complement().leading() };
+            minor.map_or(mean::CERTAIN, |(leading, _)| mean::of_minor(leading))
+        };
+        let beside_unknown = || beside_half.leading().and_then(|(leading, _)| mean::beside_unknown(leading));
+        let both = match state {
+            State::Unknown => mean::UNKNOWN,
+            _ if beside_half.is_above_a_sixteenth() => minor(),
+            _ => beside_unknown().unwrap_or_else(minor),
+        };
+        Self { nearest, state, both }
+    }
+}
+
+/// The marginals of cells, one after another.
+struct Marginals<'a, E: Encoding> {
+    weights: &'a Weights,
+    occupancies: Vec<E::Float>,
+    /// The last value that all maps had stored of a cell.
+    agreed: Option<(E::Stored, Marginal<E::Float>)>,
+}
+
+impl<'a, E: Encoding> Marginals<'a, E> {
+    fn new(weights: &'a Weights) -> Self {
+        Self { weights, occupancies: Vec::new(), agreed: None }
+    }
+
+    /// Of what the maps store of a cell.
+    fn of(&mut self, stored: &[E::Stored]) -> Marginal<E::Float> {
+        let first = stored.first().copied().unwrap_or(E::unknown());
+        if stored.iter().any(|&other| other != first) {
+            self.occupancies.clear();
+            self.occupancies.extend(stored.iter().filter_map(|&stored| E::occupancy(stored)));
+            return Marginal::of(&self.weights.mean(&self.occupancies));
+        }
+        if first == E::unknown() {
+            return Marginal { nearest: E::Float::HALF, state: State::Unknown, both: mean::UNKNOWN };
+        }
+        match self.agreed {
+            Some((stored, marginal)) if stored == first => marginal,
+            _ => {
+                let p = E::occupancy(first).unwrap_or(E::Float::HALF);
+                let marginal = Marginal::of(&Mean::of_one(p, &Natural::from(1)));
+                self.agreed = Some((first, marginal));
+                marginal
+            }
+        }
+    }
 }

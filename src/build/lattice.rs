@@ -56,16 +56,33 @@ impl Lattice {
         Some(if negative { -(magnitude as i64) } else { magnitude as i64 })
     }
 
+    /// A number of units that is not more than so many metres, and hardly less; 0 for NaN, at most `2^62`.
+    pub(super) fn units_within(self, metres: f64) -> u64 {
+        // The quotient and the last product round up by half an ulp each, at most.
+        (((metres / self.resolution) * UNITS * (1.0 - 4.0 * f64::EPSILON)) as u64).min(2 * END)
+    }
+
+    /// Whether the centre of a cell is at most so many units from a point, at most `2^62`.
+    #[inline]
+    pub(super) fn is_within(from: Point, cell: [i64; 2], units: u64) -> bool {
+        let [x, y] = offset_of_centre(from, cell).map(|offset| u128::from(offset.unsigned_abs()));
+        x * x + y * y <= u128::from(units) * u128::from(units)
+    }
+
     /// The distance in metres of a point from the centre of a cell: the nearest float, ties to even.
     #[inline]
     pub(super) fn distance_to_centre(self, from: Point, cell: [i64; 2]) -> f64 {
-        let [x, y] = [0, 1].map(|k| {
-            let centre = (cell[k] << FRACTION) + (1 << (FRACTION - 1));
-            let offset = centre - from[k];
+        let [x, y] = offset_of_centre(from, cell).map(|offset| {
             Coordinate::new(offset >> FRACTION, (offset & ((1 << FRACTION) - 1)) as f64 / UNITS)
         });
         distance(self.resolution, 0, x, y)
     }
+}
+
+/// How far the centre of a cell is from a point, in units.
+#[inline]
+fn offset_of_centre(from: Point, cell: [i64; 2]) -> Point {
+    [0, 1].map(|k| (cell[k] << FRACTION) + (1 << (FRACTION - 1)) - from[k])
 }
 
 /// `n 2^e / divisor` rounded to nearest, ties to even; `None` from about `2^75`. `n` below `2^127`, `divisor` below
@@ -155,6 +172,47 @@ mod tests {
             let error: BigInt = if found > exact { &found - &exact } else { &exact - &found };
             prop_assert!(error << 51 <= exact * 2_u32, "{rho}");
         }
+    }
+
+    proptest! {
+        /// Not more than the metres, as integers of any size, and less by a unit and a part in `2^49` at most.
+        #[test]
+        fn units_are_within_their_metres(metres in small(), resolution in prop_oneof![0.001_f64..10.0, Just(0.25)]) {
+            let metres = metres.abs();
+            let units = BigInt::from(Lattice::new(resolution).units_within(metres));
+            let big = |x: f64| {
+                let (m, e) = x.parts();
+                BigInt::from(m) << (e + 1074)
+            };
+            let exact = big(metres) << FRACTION;
+            prop_assert!(&units * big(resolution) <= exact);
+            let more: BigInt = (&units + 1) + (&units >> 49);
+            prop_assert!(more * big(resolution) >= exact);
+        }
+
+        /// As the distance says, which is a float: but for what it rounds.
+        #[test]
+        fn within_is_not_beyond(x in -1_i64 << 40..1 << 40, y in -1_i64 << 40..1 << 40, column in -99_i64..99, row in -99_i64..99, plateau in 0.0_f64..40.0) {
+            let lattice = Lattice::new(0.3);
+            let units = lattice.units_within(plateau);
+            let rho = lattice.distance_to_centre([x, y], [column, row]);
+            let is_within = Lattice::is_within([x, y], [column, row], units);
+            prop_assert!(!is_within || rho <= plateau);
+            prop_assert!(is_within || rho >= plateau - 1e-8);
+        }
+    }
+
+    #[test]
+    fn the_ends_of_a_length() {
+        let lattice = Lattice::new(0.3);
+        let units = [f64::NAN, -3.0, 0.0, f64::INFINITY, f64::MAX].map(|metres| lattice.units_within(metres));
+        assert_eq!(units, [0, 0, 0, 1 << 62, 1 << 62]);
+        assert!(
+            Lattice::is_within([1 << 27, 1 << 27], [0, 0], 0) && !Lattice::is_within([1 << 27, 1], [0, 0], 0)
+        );
+        // 3, 4, 5: the end belongs to it.
+        let from = [(1 << 27) - 3, (1 << 27) + 4];
+        assert_eq!([4, 5].map(|units| Lattice::is_within(from, [0, 0], units)), [false, true]);
     }
 
     #[test]

@@ -11,8 +11,11 @@ use crate::map::{Encoding, Geometry, Grid};
 use crate::real::Real;
 use crate::rounded::{LOG_ODDS_SCALE, fixed_log_odds, occupancy_from_fixed_log_odds, round_log_odds};
 use crate::sensor::InverseSensorModel;
+use crate::tally::Tally;
 use alloc::vec::Vec;
 use core::marker::PhantomData;
+#[cfg(feature = "rayon")]
+use rayon::prelude::*;
 
 /// A map that range scans are inserted into.
 ///
@@ -135,14 +138,18 @@ impl<T: Real> ScanMap<T> {
         // Before the work, which is at most what a map within the limit takes.
         whole.within(self.max_cells)?;
 
-        let mut readings = Raster::new(area, Reading::none(), self.max_cells)?;
+        let mut readings = Raster::new(area, Reading::<T>::none(), self.max_cells)?;
         for (index, segment) in segments.iter().enumerate() {
             for cell in Traversal::new(start, segment.end) {
                 let reading = readings.cell_mut(cell);
-                let rho = *reading
-                    .rho
-                    .get_or_insert_with(|| T::nearest(self.lattice.distance_to_centre(start, cell)));
-                let p = segment.model.occupancy(rho);
+                let p = if Lattice::is_within(start, cell, segment.plateau) {
+                    segment.nearest
+                } else {
+                    if reading.rho.is_nan() {
+                        reading.rho = T::nearest(self.lattice.distance_to_centre(start, cell));
+                    }
+                    segment.model.occupancy(reading.rho)
+                };
                 if !cell::in_unit_interval(p) {
                     let what = "occupancy by the model of beam";
                     return Err(Error::Item { what, index, value: p.widen(), allowed: "0 to 1" });
@@ -185,7 +192,11 @@ impl<T: Real> ScanMap<T> {
             return Err(far());
         }
         let end = self.lattice.along(start, scan.direction(beam)?, length).ok_or_else(far)?;
-        Ok(Segment { end, model, is_return: beam.range.is_some() })
+        // The plateau takes some time to find: not for one that ends within a cell.
+        let nearest = model.occupancy(T::zero());
+        let is_flat = model.occupancy(T::nearest(self.resolution())) == nearest;
+        let plateau = if is_flat { self.lattice.units_within(model.plateau().widen()) } else { 0 };
+        Ok(Segment { end, model, is_return: beam.range.is_some(), nearest, plateau })
     }
 
     /// Adds the log-odds of the readings of one scan.
@@ -199,15 +210,73 @@ impl<T: Real> ScanMap<T> {
             None => self.seen = Some((whole, Raster::new(area, 0, self.max_cells)?)),
         }
         if let Some((_, sums)) = &mut self.seen {
+            // Neighbours often have the same.
+            let mut last = (T::HALF, 0);
             for (row, readings) in (area.low()[1]..).zip(readings.rows(area)) {
                 for (sum, &Reading { p, .. }) in sums.row_mut(area, row).iter_mut().zip(readings) {
+                    if p == T::HALF {
+                        continue;
+                    }
+                    if p != last.0 {
+                        last = (p, fixed_log_odds(p).clamp(-self.limit, self.limit));
+                    }
                     // 2^41 scans would not fill the integer.
-                    *sum += fixed_log_odds(p).clamp(-self.limit, self.limit);
+                    *sum += last.1;
                 }
             }
         }
         self.scans += 1;
         Ok(())
+    }
+
+    /// Entropy, information and counts over all cells (Eqs. 2 to 4): the tally of [`Self::log_odds`], to the bit, without
+    /// that map.
+    ///
+    /// Neighbours with the same log-odds are counted at once.
+    ///
+    /// ```
+    /// use mean_information::build::{Beam, Pose, Scan, ScanMap};
+    /// use mean_information::sensor::SteppedSensor;
+    /// let beams = vec![Beam { bearing: 0.0, range: Some(1.5) }, Beam { bearing: 1.5, range: None }];
+    /// let scan = Scan::new(Pose::new(0.13, 0.27, 0.0)?, 2.0, beams)?;
+    /// let mut map = ScanMap::<f64>::new(0.25)?;
+    /// map.insert(&scan, |range| SteppedSensor::new(range, 0.25, 0.25, 0.875))?;
+    /// assert_eq!(map.tally().mean_information(), 0.206); // bits per observed cell
+    /// assert_eq!(map.tally(), map.log_odds()?.tally());
+    /// # Ok::<(), mean_information::Error>(())
+    /// ```
+    pub fn tally(&self) -> Tally<T> {
+        let mut tally = Tally::new();
+        if let Some((seen, sums)) = &self.seen {
+            sums.rows(*seen).for_each(|row| count(&mut tally, row));
+        }
+        tally
+    }
+
+    /// [`Self::tally`] by as many threads as rayon has: the same bits for any number of them.
+    ///
+    /// ```
+    /// use mean_information::build::{Beam, Pose, Scan, ScanMap};
+    /// use mean_information::sensor::GaussianSensor;
+    /// let scan = Scan::new(Pose::new(0.1, 0.2, 0.3)?, 2.0, vec![Beam { bearing: 0.0, range: Some(1.5) }])?;
+    /// let mut map = ScanMap::<f64>::new(0.01)?;
+    /// map.insert(&scan, |range| GaussianSensor::new(range, 0.1))?;
+    /// assert_eq!(map.par_tally(), map.tally());
+    /// # Ok::<(), mean_information::Error>(())
+    /// ```
+    #[cfg(feature = "rayon")]
+    pub fn par_tally(&self) -> Tally<T> {
+        let Some((seen, sums)) = &self.seen else { return Tally::new() };
+        let (low, [_, height]) = (seen.low()[1], seen.size());
+        let of_row = |mut tally: Tally<T>, row: usize| {
+            count(&mut tally, sums.row(*seen, low + row as i64));
+            tally
+        };
+        let merge = |mut sum: Tally<T>, part: Tally<T>| {
+            sum.merge(&part);
+            sum
+        };
+        (0..height).into_par_iter().fold(Tally::new, of_row).reduce(Tally::new, merge)
     }
 
     /// The map in log-odds (nats), as large as what the beams have crossed.
@@ -241,24 +310,37 @@ impl<T: Real> ScanMap<T> {
     }
 }
 
+/// Counts the cells of these sums of log-odds.
+fn count<T: Real>(tally: &mut Tally<T>, sums: &[i128]) {
+    for run in sums.chunk_by(|a, b| a == b) {
+        if let Some(cell) = LogOdds::cell(round_log_odds(run[0])) {
+            tally.add_many(cell, run.len() as u64);
+        }
+    }
+}
+
 /// A beam on the lattice.
-struct Segment<M> {
+struct Segment<M: InverseSensorModel> {
     end: Point,
     model: M,
     is_return: bool,
+    /// What the model says of cells whose centre is at most `plateau` units of the lattice away.
+    nearest: M::Float,
+    plateau: u64,
 }
 
 /// What one scan says of a cell.
 #[derive(Clone, Copy)]
 struct Reading<T> {
-    /// The distance of its centre from the sensor, once a beam crosses it: beams are many where cells are near.
-    rho: Option<T>,
+    /// The distance of its centre from the sensor, once a beam asks for it: beams are many where cells are near. NaN
+    /// before.
+    rho: T,
     p: T,
 }
 
 impl<T: Real> Reading<T> {
     fn none() -> Self {
-        Self { rho: None, p: T::HALF }
+        Self { rho: T::nan(), p: T::HALF }
     }
 }
 

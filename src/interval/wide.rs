@@ -12,7 +12,7 @@ use super::endpoint::sealed::Sealed;
 use super::{Endpoint, Interval, Toward, max, min};
 use crate::real::Real;
 use crate::rounded::extended::{self, LN_2};
-use crate::rounded::{Enclosure, mul_high, reciprocal};
+use crate::rounded::{Enclosure, mul_high, reciprocal, square_root};
 use Toward::{Down, Up};
 
 /// `±m 2^e` with `m` in `[2^127, 2^128)`, or 0 with `m = e = 0`, or `±inf` with `e = i32::MAX`.
@@ -210,7 +210,7 @@ impl Endpoint for Wide {
         // An even exponent.
         let odd = self.e & 1;
         let m = self.m >> odd;
-        let first = Self::from_integer(m.isqrt(), (self.e + odd) >> 1);
+        let first = Self::from_integer(square_root(m).into(), (self.e + odd) >> 1);
         let root = Self::HALF.mul(first.add(self.div(first, Up), Up), Up);
         Interval { lower: self.div(root, Down), upper: root }
     }

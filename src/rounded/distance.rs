@@ -5,7 +5,7 @@
 
 use super::big::Ball;
 use super::enclosure::{Enclosure, Midpoint, round_integer};
-use super::{normalised, settle};
+use super::{normalised, settle, square_root};
 use crate::real::Real;
 use core::cmp::Ordering;
 
@@ -87,7 +87,7 @@ pub(crate) fn distance<T: Real>(step: T, scale: i32, x: Coordinate, y: Coordinat
     // sum of squares loses less than 1.5, and its own floor less than one.
     let gap = if small.is_zero() { 127 } else { (large.exponent - small.exponent).min(63) + 64 };
     let (a, b) = (large.significand >> 64, small.significand >> gap);
-    let root = (a * a + b * b).isqrt();
+    let root = u128::from(square_root(a * a + b * b));
     let m_wide = u128::from(m);
     let value = Enclosure { lo: root * m_wide, width: 3 * m_wide, exponent: large.exponent + 64 + e };
     settle(value, |midpoint| rounds_up(m, e, large, small, midpoint))

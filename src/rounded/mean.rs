@@ -24,6 +24,9 @@ pub(crate) type Both = (Fixed, Fixed);
 pub(crate) const CERTAIN: Both =
     (Fixed { value: 0, exponent: -120 }, Fixed { value: 1 << 120, exponent: -120 });
 
+/// Those of 1/2.
+pub(crate) const UNKNOWN: Both = (CERTAIN.1, CERTAIN.0);
+
 /// The first 53 bits as `m 2^-n` and the 11 that follow.
 fn split(x: Leading) -> (u64, i32, u64) {
     (x.m >> 11, -(x.e + 11), x.m & 0x7ff)

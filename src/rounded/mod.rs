@@ -27,6 +27,8 @@ pub(crate) mod limbs;
 mod log_odds;
 pub(crate) mod mean;
 mod natural;
+mod root;
+mod storage;
 
 pub(crate) use angle::{cos_sin, turns};
 pub(crate) use distance::{Coordinate, distance, multiple};
@@ -38,6 +40,7 @@ pub(crate) use log_odds::{
     LOG_ODDS_SCALE, fixed_log_odds, log_odds_from_occupancy, occupancy_from_fixed_log_odds, round_log_odds,
 };
 pub(crate) use natural::{Leading, Natural, leading, quotient};
+pub(crate) use root::square_root;
 
 use crate::real::Real;
 use enclosure::{Midpoint, Rounded};

@@ -1,19 +1,35 @@
 //! Natural numbers of any size, and the nearest float to the quotient of two.
 
+use super::storage::Limbs;
 use super::{limbs, round_integer};
 use crate::real::Real;
-use alloc::{vec, vec::Vec};
 use core::cmp::Ordering;
 
 /// A natural number: limbs, lowest first, the last of which is not 0.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub(crate) struct Natural {
-    limbs: Vec<u64>,
+    limbs: Limbs,
+}
+
+impl Default for Natural {
+    fn default() -> Self {
+        Self { limbs: Limbs::zeros(0) }
+    }
 }
 
 impl From<u64> for Natural {
     fn from(n: u64) -> Self {
-        Self { limbs: vec![n] }.trimmed()
+        Self::from([n.into(), 0])
+    }
+}
+
+/// `low + high 2^128`.
+impl From<[u128; 2]> for Natural {
+    #[inline]
+    fn from([low, high]: [u128; 2]) -> Self {
+        let mut limbs = Limbs::zeros(4);
+        limbs.copy_from_slice(&[low as u64, (low >> 64) as u64, high as u64, (high >> 64) as u64]);
+        Self { limbs }.trimmed()
     }
 }
 
@@ -24,9 +40,8 @@ impl Natural {
     }
 
     fn trim(&mut self) {
-        while self.limbs.last() == Some(&0) {
-            self.limbs.pop();
-        }
+        let length = self.limbs.iter().rposition(|&limb| limb != 0).map_or(0, |top| top + 1);
+        self.limbs.resize(length);
     }
 
     pub(crate) fn is_zero(&self) -> bool {
@@ -51,7 +66,7 @@ impl Natural {
 
     fn add_limbs(&mut self, at: usize, addend: &[u64]) {
         let length = self.limbs.len().max(at + addend.len()) + 1;
-        self.limbs.resize(length, 0);
+        self.limbs.resize(length);
         limbs::add(&mut self.limbs[at..], addend);
         self.trim();
     }
@@ -59,13 +74,13 @@ impl Natural {
     /// `self 2^shift`.
     pub(crate) fn shifted(&self, shift: usize) -> Self {
         let (whole, part) = (shift / 64, shift % 64);
-        let mut limbs = vec![0; whole];
+        let mut limbs = Limbs::zeros(whole + self.limbs.len() + 1);
         let mut carry = 0;
-        for &limb in &self.limbs {
-            limbs.push(limb << part | carry);
+        for (shifted, &limb) in limbs[whole..].iter_mut().zip(self.limbs.iter()) {
+            *shifted = limb << part | carry;
             carry = if part == 0 { 0 } else { limb >> (64 - part) };
         }
-        limbs.push(carry);
+        limbs[whole + self.limbs.len()] = carry;
         Self { limbs }.trimmed()
     }
 
@@ -79,10 +94,44 @@ impl Natural {
         (Self { limbs }.trimmed(), negative)
     }
 
+    /// `self 2^shift - other 2^other_shift` and whether it is negative: its magnitude.
+    pub(crate) fn shifted_difference(&self, shift: usize, other: &Self, other_shift: usize) -> (Self, bool) {
+        let (Some(a), Some(b)) = (self.halves(shift), other.halves(other_shift)) else {
+            return self.shifted(shift).difference(&other.shifted(other_shift));
+        };
+        let negative = (a[1], a[0]) < (b[1], b[0]);
+        let (large, small) = if negative { (b, a) } else { (a, b) };
+        let (low, borrow) = large[0].overflowing_sub(small[0]);
+        (Self::from([low, large[1] - small[1] - u128::from(borrow)]), negative)
+    }
+
+    /// `self 2^shift` as `low + high 2^128`, if it is below `2^256`.
+    #[inline]
+    fn halves(&self, shift: usize) -> Option<[u128; 2]> {
+        if self.bits() + shift > 256 {
+            return None;
+        }
+        let limb = |k: usize| u128::from(self.limbs.get(k).copied().unwrap_or(0));
+        let [low, high] = [limb(1) << 64 | limb(0), limb(3) << 64 | limb(2)];
+        Some(match shift {
+            0..128 => [low << shift, high << shift | (low >> 1) >> (127 - shift)],
+            128..256 => [0, low << (shift - 128)],
+            _ => [0, 0],
+        })
+    }
+
     pub(crate) fn times(&self, other: &Self) -> Self {
-        Self { limbs: limbs::product(&self.limbs, &other.limbs) }.trimmed()
+        Self { limbs: limbs::product(&self.limbs, &other.limbs).into() }.trimmed()
     }
 }
+
+impl PartialEq for Natural {
+    fn eq(&self, other: &Self) -> bool {
+        *self.limbs == *other.limbs
+    }
+}
+
+impl Eq for Natural {}
 
 impl PartialOrd for Natural {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
@@ -99,8 +148,7 @@ impl Ord for Natural {
 
 /// `n 2^e / divisor`, rounded once to nearest, ties to even, for a divisor that is not 0.
 pub(crate) fn quotient<T: Real>(n: &Natural, divisor: &Natural, e: i32) -> T {
-    leading(n, divisor, e)
-        .map_or(T::zero(), |(leading, sticky)| round_integer(u128::from(leading.m), leading.e, sticky))
+    leading(n, divisor, e).map_or(T::zero(), |(leading, sticky)| leading.nearest(sticky))
 }
 
 /// The first bits of a positive number: `m 2^e`, `m` in `[2^63, 2^64)`.
@@ -108,6 +156,13 @@ pub(crate) fn quotient<T: Real>(n: &Natural, divisor: &Natural, e: i32) -> T {
 pub(crate) struct Leading {
     pub(crate) m: u64,
     pub(crate) e: i32,
+}
+
+impl Leading {
+    /// The nearest float to this, or to a little more if `sticky`; ties to even.
+    pub(crate) fn nearest<T: Real>(self, sticky: bool) -> T {
+        round_integer(u128::from(self.m), self.e, sticky)
+    }
 }
 
 /// `n 2^e / divisor` cut by less than `2^-62` of it, and whether it was cut; `None` if it is 0. Exponents stop at
@@ -118,16 +173,64 @@ pub(crate) fn leading(n: &Natural, divisor: &Natural, e: i32) -> Option<(Leading
     }
     // A quotient of 63 or 64 bits, one step of long division (Knuth, The Art of Computer Programming 4.3.1, algorithm
     // D): the divisor's top limb at least 2^63, the dividend below 2^64 times the divisor.
+    let scale = (divisor.bits() + 63) as i64 - n.bits() as i64;
+    let (digit, sticky) = match short(divisor) {
+        Some((divisor, normalising)) if scale + normalising as i64 >= 0 => {
+            short_digit(n, (scale + normalising as i64) as usize, divisor)
+        }
+        _ => long_digit(n, scale, divisor),
+    };
+    // n 2^e / divisor = digit 2^(e - scale).
+    let shift = digit.leading_zeros();
+    let e = i64::from(e) - scale - i64::from(shift);
+    Some((Leading { m: digit << shift, e: clamped(e) }, sticky))
+}
+
+/// A divisor of at most 128 bits, shifted to 128, and by how much.
+fn short(divisor: &Natural) -> Option<(u128, u32)> {
+    let n = match *divisor.limbs {
+        [low] => u128::from(low),
+        [low, high] => u128::from(high) << 64 | u128::from(low),
+        _ => return None,
+    };
+    Some((n << n.leading_zeros(), n.leading_zeros()))
+}
+
+/// `n 2^shift / divisor`, below `2^64`, for a divisor of 128 bits, and whether a remainder is left.
+#[inline]
+fn short_digit(n: &Natural, shift: usize, divisor: u128) -> (u64, bool) {
+    // The dividend is of three limbs.
+    let (whole, part) = (shift / 64, shift % 64);
+    let limb = |k: usize| n.limbs.get(k.wrapping_sub(whole)).copied().unwrap_or(0);
+    let shifted =
+        |k: usize| if part == 0 { limb(k) } else { limb(k) << part | limb(k.wrapping_sub(1)) >> (64 - part) };
+    let top = u128::from(shifted(2)) << 64 | u128::from(shifted(1));
+    let (high, low) = (divisor >> 64, divisor & u128::from(u64::MAX));
+    let mut digit = (top / high).min(u128::from(u64::MAX));
+    // What is left of the two upper limbs, and the third: below 2^64 divisors, and at least minus two.
+    let mut rest = top - digit * high;
+    loop {
+        // While digit low > rest 2^64 + the third limb: at most two too large, and then the rest is of one limb.
+        let product = digit * low;
+        if rest >> 64 != 0 || product <= (rest << 64 | u128::from(shifted(0))) {
+            return (digit as u64, rest >> 64 != 0 || product != (rest << 64 | u128::from(shifted(0))));
+        }
+        digit -= 1;
+        rest += high;
+    }
+}
+
+/// `n 2^scale / divisor`, in `(2^62, 2^64)`, and whether a remainder is left.
+fn long_digit(n: &Natural, scale: i64, divisor: &Natural) -> (u64, bool) {
     let length = divisor.limbs.len();
     let normalising = 64 * length - divisor.bits();
-    let scale = (divisor.bits() + 63) as i64 - n.bits() as i64;
     // A dividend that is far longer moves the divisor instead.
     let more = usize::try_from(-scale).map_or(0, |excess| excess.div_ceil(64) * 64);
     let divisor = divisor.shifted(normalising + more);
     let moved = scale + (normalising + more) as i64;
     let mut rest = n.shifted(moved as usize).limbs;
     let top = divisor.limbs.len();
-    rest.resize(top + 1, 0);
+    rest.resize(top + 1);
     let estimate =
         (u128::from(rest[top]) << 64 | u128::from(rest[top - 1])) / u128::from(divisor.limbs[top - 1]);
     let mut digit = u64::try_from(estimate).unwrap_or(u64::MAX);
@@ -142,10 +245,7 @@ pub(crate) fn leading(n: &Natural, divisor: &Natural, e: i32) -> Option<(Leading
         }
     }
     let sticky = rest.iter().any(|&limb| limb != 0);
-    // n 2^e / divisor = digit 2^(e - scale).
-    let shift = digit.leading_zeros();
-    let e = i64::from(e) - scale - i64::from(shift);
-    Some((Leading { m: digit << shift, e: clamped(e) }, sticky))
+    (digit, sticky)
 }
 
 /// Beyond these exponents everything is 0 or infinite.

@@ -60,6 +60,48 @@ proptest! {
         prop_assert!(error(mean) <= error(mean.next_up()) && error(mean) <= error(mean.next_down()), "{:e}", mean);
     }
 
+    /// Two ways: with the map and without; many cells agree, in stretches and alone.
+    #[test]
+    fn the_tally_without_a_map_is_that_with_one(
+        common in vec((occupancy(), any::<bool>()), SIZE[0] * SIZE[1]), (maps, weights) in hypotheses(occupancy()), offsets in vec(0_usize..3, 7),
+        bytes in vec(any::<i8>(), 2 * SIZE[0] * SIZE[1]),
+    ) {
+        let maps: Vec<Map> = maps.into_iter().enumerate().map(|(k, one)| {
+            let agreed = |(&(p, agree), &own): (&(f64, bool), &f64)| if agree { if p < 0.3 { 0.5 } else { p } } else { own };
+            let cells = common.iter().zip(one.cells()).map(agreed).collect();
+            let place = [-3.0 + 0.05 * offsets[k] as f64, 7.0 + 0.05 * (offsets[k] / 2) as f64];
+            Grid::new(SIZE[0], SIZE[1], Geometry::new(0.05, place).unwrap(), cells).unwrap()
+        }).collect();
+        let (alone, with_map) = (Hypotheses::new(&maps, &weights)?.expected_tally()?, expected(&maps, &weights));
+        prop_assert_eq!(&alone, with_map.tally());
+        let bytes: Vec<_> = bytes.chunks(SIZE[0] * SIZE[1]).map(|cells| {
+            Grid::<MrptLogOdds>::new(SIZE[0], SIZE[1], *maps[0].geometry(), cells.to_vec()).unwrap()
+        }).collect();
+        let hypotheses = Hypotheses::new(&bytes, &[0.75, 0.3])?;
+        let (alone, with_map) = (hypotheses.expected_tally()?, hypotheses.expected_map()?);
+        prop_assert_eq!(&alone, with_map.tally());
+        let single = |map: &Map| {
+            let cells = map.cells().iter().map(|&p| p as f32).collect();
+            Grid::<Probability<f32>>::new(SIZE[0], SIZE[1], *map.geometry(), cells).unwrap()
+        };
+        let single: Vec<_> = maps.iter().map(single).collect();
+        let hypotheses = Hypotheses::new(&single, &weights)?;
+        let (alone, with_map) = (hypotheses.expected_tally()?, hypotheses.expected_map()?);
+        prop_assert_eq!(&alone, with_map.tally());
+    }
+
+    /// A cell in which all agree, and one in which one of no weight differs, by which the sums take the other way.
+    #[test]
+    fn agreement_is_a_mean_like_any_other(p in occupancy(), other in occupancy(), weights in vec(1e-3_f64..50.0, 1..5)) {
+        let one = |p| Grid::<Probability<f64>>::new(1, 1, Geometry::new(0.5, [0.0; 2]).unwrap(), vec![p]).unwrap();
+        let mut maps = vec![one(p); weights.len()];
+        let agreed = Hypotheses::new(&maps, &weights)?.expected_map()?;
+        maps.push(one(other));
+        let mut weights = weights;
+        weights.push(0.0);
+        prop_assert_eq!(agreed, Hypotheses::new(&maps, &weights)?.expected_map()?);
+    }
+
     #[test]
     fn unknown_in_all_stays_unknown((maps, weights) in hypotheses(occupancy()), at in 0..SIZE[0] * SIZE[1]) {
         let maps: Vec<Map> = maps.into_iter().map(|one| {
@@ -200,7 +242,9 @@ fn certain_and_impossible_means() {
 fn maps_that_do_not_fit_are_refused_with_the_reason() {
     let refused = |maps: &[Map]| {
         let hypotheses = Hypotheses::new(maps, &vec![0.25; maps.len()]).unwrap();
-        hypotheses.with_max_cells(1000).expected_map().unwrap_err().to_string()
+        let hypotheses = hypotheses.with_max_cells(1000);
+        assert_eq!(hypotheses.expected_tally().unwrap_err(), hypotheses.expected_map().unwrap_err());
+        hypotheses.expected_map().unwrap_err().to_string()
     };
     let first = row(0.5, 1.0, &[0.25, 0.75]);
     assert_eq!(

@@ -8,9 +8,10 @@ use mean_information::cell::log_odds_from_occupancy;
 use mean_information::map::encoding::LogOdds;
 use mean_information::map::{Geometry, Grid, encoding::Probability};
 use mean_information::sensor::{GaussianSensor, InverseSensorModel, SteppedSensor};
-use mean_information::{Error, Tally};
+use mean_information::{Error, Real, Tally};
 use proptest::collection::vec;
 use proptest::prelude::*;
+use std::cell::Cell;
 
 const SIGMA: f64 = 0.07;
 const MAXIMUM: f64 = 3.25;
@@ -101,6 +102,50 @@ proptest! {
                 // of the log-odds is at most 9 / σ where they are not limited.
                 prop_assert!(doubtful || (found - sum).abs() <= poses.len() as f64 * 9.0 / SIGMA * 4e-9, "{found} {sum}");
             }
+        }
+    }
+
+    /// A model whose plateau the map does not know of is asked in every cell, and says the same.
+    #[test]
+    fn the_plateau_changes_no_bit(poses in vec(pose(), 1..4), beams in vec(beam(), 1..9), resolution in 0.02_f64..0.3, sigma in prop_oneof![Just(0.004), 0.001_f64..0.2]) {
+        fn inserted<M: InverseSensorModel<Float = T>, T: Real>(resolution: f64, scans: &[Scan<T>], model: impl Fn(T) -> Result<M, Error>) -> (Tally<T>, Vec<T>) {
+            let mut map = ScanMap::<T>::new(resolution).unwrap();
+            for scan in scans {
+                map.insert(scan, &model).unwrap();
+            }
+            (map.tally(), map.log_odds().unwrap().cells().to_vec())
+        }
+        let scans: Vec<_> = poses.iter().map(|&pose| scan(pose, &beams)).collect();
+        let sensor = |range| GaussianSensor::new(range, sigma);
+        prop_assert_eq!(
+            inserted(resolution, &scans, sensor),
+            inserted(resolution, &scans, |range| sensor(range).map(WithoutPlateau))
+        );
+        let steps = |range| SteppedSensor::new(range, sigma, 0.3, 0.9);
+        prop_assert_eq!(
+            inserted(resolution, &scans, steps),
+            inserted(resolution, &scans, |range| steps(range).map(WithoutPlateau))
+        );
+        let single = |beam: &Beam<f64>| Beam { bearing: beam.bearing, range: beam.range.map(|range| range as f32) };
+        let scans: Vec<_> = scans.iter().map(|scan| {
+            Scan::new(*scan.pose(), MAXIMUM as f32, scan.beams().iter().map(single).collect()).unwrap()
+        }).collect();
+        let sensor = |range| GaussianSensor::new(range, sigma as f32);
+        prop_assert_eq!(
+            inserted(resolution, &scans, sensor),
+            inserted(resolution, &scans, |range| sensor(range).map(WithoutPlateau))
+        );
+    }
+
+    /// The sums with and without a map, of cells alike and not.
+    #[test]
+    fn the_tally_is_that_of_the_map(poses in vec(pose(), 0..4), beams in vec(beam(), 1..9), resolution in 0.05_f64..0.6) {
+        let scans: Vec<_> = poses.iter().map(|&pose| scan(pose, &beams)).collect();
+        let mut map = built(resolution, &scans);
+        prop_assert_eq!(map.tally(), grid(&map).tally());
+        for scan in &scans {
+            map.insert(scan, |range| SteppedSensor::new(range, 0.2, 0.375, 1.0)).unwrap();
+            prop_assert_eq!(map.tally(), grid(&map).tally());
         }
     }
 
@@ -285,4 +330,50 @@ fn readings_are_limited_and_add_up() {
     for limit in [0.0, -1.0, 40.5, f64::NAN] {
         assert!(ScanMap::<f64>::new(0.25).unwrap().with_reading_limit(limit).is_err(), "{limit}");
     }
+}
+
+/// A model that does not say where its plateau ends.
+struct WithoutPlateau<M>(M);
+
+impl<M: InverseSensorModel> InverseSensorModel for WithoutPlateau<M> {
+    type Float = M::Float;
+
+    fn occupancy(&self, rho: M::Float) -> M::Float {
+        self.0.occupancy(rho)
+    }
+
+    fn reach(&self) -> M::Float {
+        self.0.reach()
+    }
+}
+
+/// A model that counts how often it is asked.
+struct Counted<'a>(SteppedSensor<f64>, &'a Cell<usize>);
+
+impl InverseSensorModel for Counted<'_> {
+    type Float = f64;
+
+    fn occupancy(&self, rho: f64) -> f64 {
+        self.1.set(self.1.get() + 1);
+        self.0.occupancy(rho)
+    }
+
+    fn reach(&self) -> f64 {
+        self.0.reach()
+    }
+
+    fn plateau(&self) -> f64 {
+        self.0.plateau()
+    }
+}
+
+/// Of a beam of 400 cells the model is asked about the wall and what is next to it.
+#[test]
+fn cells_of_the_plateau_are_not_asked_about() {
+    let asked = Cell::new(0);
+    let scan =
+        Scan::new(pose_of(0.001, 0.002, 0.7), 9.0, vec![Beam { bearing: 0.1, range: Some(4.0) }]).unwrap();
+    let mut map = ScanMap::new(0.01).unwrap();
+    map.insert(&scan, |range| Ok(Counted(SteppedSensor::new(range, 0.03, 0.25, 0.875)?, &asked))).unwrap();
+    assert!(map.tally().observed() > 400 && asked.get() < 20, "{}", asked.get());
 }

@@ -158,6 +158,27 @@ fn steps_include_both_faces_of_the_obstacle() {
     assert!(sensor.occupancy(f64::NAN).is_nan());
 }
 
+/// The plateau by bisection, asking the model each time.
+fn halved<T: Real>(sensor: &GaussianSensor<T>) -> T {
+    let (mut plateau, mut end) = (T::zero(), sensor.range());
+    for _ in 0..T::PRECISION {
+        let middle = plateau + (end - plateau) * T::HALF;
+        let is_flat = sensor.occupancy(middle) == sensor.occupancy(T::zero());
+        if is_flat { plateau = middle } else { end = middle }
+    }
+    plateau
+}
+
+proptest! {
+    #[test]
+    fn the_plateau_is_that_of_the_occupancies(z in 1e-3_f64..1e3, ratio in 2.0_f64..4096.0) {
+        let sensor = GaussianSensor::new(z, z / ratio).unwrap();
+        prop_assert_eq!(sensor.plateau(), halved(&sensor));
+        let sensor = GaussianSensor::new(z as f32, (z / ratio) as f32).unwrap();
+        prop_assert_eq!(sensor.plateau(), halved(&sensor));
+    }
+}
+
 /// Up to the last float or so at the occupancy of the sensor's own place.
 #[test]
 fn the_plateau_ends_where_the_occupancy_changes() {
@@ -170,6 +191,13 @@ fn the_plateau_ends_where_the_occupancy_changes() {
         let beyond = plateau + 4.0 * z * f64::EPSILON;
         assert!(beyond >= z || sensor.occupancy(beyond) != sensor.occupancy(0.0), "{plateau}");
     }
+    // The smallest numbers, and single precision.
+    for (z, sigma) in [(1e-300, 1e-303), (3e-308, 5e-310), (4e-321, 5e-323)] {
+        let sensor = GaussianSensor::new(z, sigma).unwrap();
+        assert_eq!(sensor.plateau(), halved(&sensor), "{z:e}");
+    }
+    let sensor = GaussianSensor::new(7.0_f32, 0.125).unwrap();
+    assert_eq!(sensor.plateau(), halved(&sensor));
     // Nothing before the sensor: the whole obstacle.
     let touching = SteppedSensor::new(0.25_f64, 0.5, 0.125, 0.875).unwrap();
     assert_eq!((touching.occupancy(0.0), touching.plateau()), (0.875, 0.5));

@@ -1,6 +1,6 @@
 //! Any number of threads: the same bits.
 
-use mean_information::build::CartesianRoom;
+use mean_information::build::{Beam, CartesianRoom, Hypotheses, Pose, Scan, ScanMap};
 use mean_information::map::encoding::{Encoding, MrptLogOdds, Probability};
 use mean_information::map::{Geometry, Grid};
 use mean_information::sensor::GaussianSensor;
@@ -38,4 +38,32 @@ fn rooms() {
     assert!(by_threads(|| room.par_tally()).into_iter().all(|by_threads| by_threads.unwrap() == tally));
     let endless = room.with_limit(10);
     assert!(by_threads(|| endless.par_tally()).iter().all(Result::is_err));
+}
+
+#[test]
+fn expected_maps() {
+    let map = |particle: i32| {
+        let cells = (0..300 * 40).map(|k| ((k / 7 * (1 + particle / 2)) % 256 - 128) as i8).collect();
+        let geometry = Geometry::new(0.05, [0.05 * f64::from(particle), 0.0]).unwrap();
+        Grid::<MrptLogOdds>::new(40, 300, geometry, cells).unwrap()
+    };
+    let maps: Vec<_> = (0..5).map(map).collect();
+    let hypotheses = Hypotheses::new(&maps, &[0.3, 0.1, 0.7, 0.2, 0.05]).unwrap();
+    let tally = hypotheses.expected_tally().unwrap();
+    assert_eq!(tally.cells(), 300 * 44);
+    let by_threads = by_threads(|| hypotheses.par_expected_tally());
+    assert!(by_threads.into_iter().all(|by_threads| by_threads.unwrap() == tally));
+    assert!(hypotheses.with_max_cells(10).par_expected_tally().is_err());
+}
+
+#[test]
+fn maps_of_scans() {
+    let mut map = ScanMap::<f64>::new(0.02).unwrap();
+    assert_eq!(map.par_tally(), map.tally());
+    let beam = |k: i32| Beam { bearing: 0.3 * f64::from(k), range: Some(1.5 + 0.1 * f64::from(k)) };
+    let scan = Scan::new(Pose::new(0.3, -0.2, 0.7).unwrap(), 9.0, (0..20).map(beam).collect()).unwrap();
+    map.insert(&scan, |range| GaussianSensor::new(range, 0.3)).unwrap();
+    let tally = map.tally();
+    assert!(tally.observed() > 100);
+    assert!(by_threads(|| map.par_tally()).iter().all(|by_threads| *by_threads == tally));
 }

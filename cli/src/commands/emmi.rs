@@ -81,8 +81,9 @@ impl WithMaps for Expecting<'_> {
         let hypotheses = Hypotheses::new(&maps, self.weights)?.with_max_cells(self.max_cells);
         let progress = Progress::new(maps.len() + 1);
         progress.begin("expected map");
-        let expected = hypotheses.expected_map()?;
-        let measures = Measures::of_tally(expected.grid(), expected.tally());
+        // The particles of a file are all of one size.
+        let size = maps.first().map_or([0; 2], |map| [map.width(), map.height()]);
+        let measures = Measures::of_expected(size, &hypotheses.expected_tally()?);
         progress.done();
         let mut particles = Vec::with_capacity(maps.len());
         for (index, map) in maps.iter().enumerate() {

@@ -9,10 +9,14 @@ fn big(n: &Natural) -> BigUint {
     n.limbs.iter().rev().fold(BigUint::ZERO, |sum, &limb| (sum << 64) + limb)
 }
 
-/// Numbers of up to nine limbs; limbs of ones and zeros, where carries and estimates go wrong, are frequent.
+/// Limbs of ones and zeros, where carries and estimates go wrong, are frequent.
+fn limb() -> impl Strategy<Value = u64> {
+    prop_oneof![any::<u64>(), Just(0), Just(u64::MAX), Just(1 << 63)]
+}
+
+/// Numbers of up to nine limbs.
 fn natural() -> impl Strategy<Value = Natural> {
-    let limb = prop_oneof![any::<u64>(), Just(0), Just(u64::MAX), Just(1 << 63)];
-    vec(limb, 0..9).prop_map(|limbs| Natural { limbs }.trimmed())
+    vec(limb(), 0..9).prop_map(|limbs| Natural { limbs: limbs.into() }.trimmed())
 }
 
 proptest! {
@@ -27,11 +31,32 @@ proptest! {
         let (difference, negative) = a.difference(&b);
         let (large, small) = if negative { (&b, &a) } else { (&a, &b) };
         prop_assert_eq!(big(&difference) + big(small), big(large));
+        for [a_shift, b_shift] in [[0, 0], [shift, 0], [1, shift], [shift, shift / 2]] {
+            let (difference, negative) = a.shifted_difference(a_shift, &b, b_shift);
+            let (a, b) = (big(&a) << a_shift, big(&b) << b_shift);
+            prop_assert_eq!((big(&difference), negative), if a < b { (b - a, true) } else { (a - b, false) });
+        }
         prop_assert_eq!(big(&a.clone().plus(&b)), big(&a) + big(&b));
         let mut sum = a.clone();
         sum.add_shifted(n, shift);
         prop_assert_eq!(big(&sum), big(&a) + (BigUint::from(n) << shift));
         prop_assert!(sum.limbs.last() != Some(&0));
+        // In place or on the heap, whatever was there before.
+        let kept = |limbs: &Limbs, wanted| {
+            let mut limbs = limbs.clone();
+            limbs.resize(wanted);
+            limbs
+        };
+        for wanted in 0..12 {
+            let mut expected = sum.limbs.to_vec();
+            expected.resize(wanted, 0);
+            prop_assert_eq!(&kept(&sum.limbs, wanted)[..], &expected[..]);
+            expected.resize(5, 0);
+            expected.resize(11, 0);
+            prop_assert_eq!(&kept(&kept(&kept(&sum.limbs, wanted), 5), 11)[..], &expected[..]);
+        }
+        let [low, high] = [n, n.rotate_left(17)];
+        prop_assert_eq!(big(&Natural::from([low, high])), BigUint::from(low) + (BigUint::from(high) << 128));
     }
 
     /// Not above the quotient, and short of it by less than 2 units of 64 bits, of which one may have been shifted in.
@@ -39,11 +64,11 @@ proptest! {
     fn the_leading_bits_are_cut_not_rounded(n in natural(), d in natural(), near in any::<bool>(), e in -900_i32..300) {
         prop_assume!(!n.is_zero() && !d.is_zero());
         // Where the estimate of a digit is too large: a divisor whose top limb is least, and the next most.
-        let mut limbs = d.limbs;
+        let mut limbs = d.limbs.to_vec();
         if near {
             limbs.extend([u64::MAX, 1 << 63]);
         }
-        let d = Natural { limbs };
+        let d = Natural { limbs: limbs.into() };
         let (Leading { m, e: exponent }, sticky) = leading(&n, &d, e).unwrap();
         let shift = exponent - e;
         let (scaled, divisor) =
@@ -52,6 +77,21 @@ proptest! {
         prop_assert!(whole >= BigUint::from(m) && whole < BigUint::from(m) + 2_u32);
         prop_assert_eq!(sticky, whole != BigUint::from(m) || rest != BigUint::ZERO);
         prop_assert!(m >> 63 == 1);
+    }
+
+    /// By a divisor of two limbs in 128 bits and limb by limb; where the estimate is too large, too.
+    #[test]
+    fn short_and_long_division_agree(
+        n in [limb(), limb()], shift in 0_usize..64, d in [limb(), limb()], near in any::<bool>(),
+    ) {
+        let number = |[low, high]: [u64; 2]| Natural::from([u128::from(high) << 64 | u128::from(low), 0]);
+        let (n, divisor) = (number(n).shifted(shift), number(if near { [d[0], 1 << 63] } else { d }));
+        prop_assume!(!n.is_zero() && !divisor.is_zero());
+        let scale = (divisor.bits() + 63) as i64 - n.bits() as i64;
+        let (normalised, normalising) = short(&divisor).unwrap();
+        prop_assert_eq!(big(&Natural::from([normalised, 0])), big(&divisor) << normalising);
+        let moved = (scale + i64::from(normalising)) as usize;
+        prop_assert_eq!(short_digit(&n, moved, normalised), long_digit(&n, scale, &divisor));
     }
 
     /// `x` is nearest to `n 2^e / d` if and only if `|2^k x d - 2^(k+e) n|` is at most half a spacing times `2^k d`.

@@ -175,7 +175,7 @@ mod tests {
     }
 
     proptest! {
-        /// Not more than the metres, as integers of any size, and less by a unit and a part in `2^49` at most.
+        /// Not more than the metres, as integers of any size, and less by two units and a part in `2^49` at most.
         #[test]
         fn units_are_within_their_metres(metres in small(), resolution in prop_oneof![0.001_f64..10.0, Just(0.25)]) {
             let metres = metres.abs();
@@ -186,7 +186,7 @@ mod tests {
             };
             let exact = big(metres) << FRACTION;
             prop_assert!(&units * big(resolution) <= exact);
-            let more: BigInt = (&units + 1) + (&units >> 49);
+            let more: BigInt = (&units + 2) + (&units >> 49);
             prop_assert!(more * big(resolution) >= exact);
         }
 

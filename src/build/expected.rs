@@ -22,7 +22,8 @@ use rayon::prelude::*;
 
 /// Maps of one place, each with a weight: the particles of a filter.
 ///
-/// Beyond its own extent a map is unknown. All share one lattice of cells; weights need not add up to 1.
+/// Beyond its own extent a map is unknown. All share one lattice of cells; weights need not add up to 1. Means are exact
+/// before they are rounded ([`expected`](crate::book::expected)).
 ///
 /// ```
 /// use mean_information::build::Hypotheses;
@@ -117,7 +118,7 @@ impl<'a, E: Encoding> Hypotheses<'a, E> {
         Ok(ExpectedMap { grid: Grid::new(width, height, geometry, cells)?, tally })
     }
 
-    /// The sums over the expected map, without the map: those of [`ExpectedMap::tally`], to the bit.
+    /// The sums over the expected map, without the map: the bits of [`ExpectedMap::tally`].
     ///
     /// Memory: nothing for a cell, some 40 bytes for a map. A cell that no map knows, or all know to be the same as the
     /// cell before on which all agreed, takes no arithmetic.
@@ -159,14 +160,7 @@ impl<'a, E: Encoding> Hypotheses<'a, E> {
     #[cfg(feature = "rayon")]
     pub fn par_expected_tally(&self) -> Result<Tally<E::Float>, Error> {
         let alignment = self.alignment()?;
-        let merge = |mut sum: Tally<_>, part: Tally<_>| {
-            sum.merge(&part);
-            Ok(sum)
-        };
-        (0..alignment.height)
-            .into_par_iter()
-            .map(|row| self.tally_of_rows(&alignment, row..row + 1))
-            .try_reduce(Tally::new, merge)
+        (0..alignment.height).into_par_iter().map(|row| self.tally_of_rows(&alignment, row..row + 1)).sum()
     }
 
     fn tally_of_rows(&self, alignment: &Alignment, rows: Range<usize>) -> Result<Tally<E::Float>, Error> {

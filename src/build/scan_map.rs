@@ -21,7 +21,8 @@ use rayon::prelude::*;
 ///
 /// Cells are squares of one side, `[i r, (i + 1) r) x [j r, (j + 1) r)` for integers `i` and `j`, so that all maps of
 /// one resolution share their cells. The map grows with the scans; each cell holds the sum of log-odds of the scans
-/// that touched it, in integers, so any order of scans gives the same bits. Nothing known is 0: prior 1/2.
+/// that touched it, in integers, so any order of scans gives the same bits. Nothing known is 0: prior 1/2
+/// ([`scan`](crate::book::scan)).
 ///
 /// ```
 /// use mean_information::build::{Beam, Pose, Scan, ScanMap};
@@ -272,11 +273,7 @@ impl<T: Real> ScanMap<T> {
             count(&mut tally, sums.row(*seen, low + row as i64));
             tally
         };
-        let merge = |mut sum: Tally<T>, part: Tally<T>| {
-            sum.merge(&part);
-            sum
-        };
-        (0..height).into_par_iter().fold(Tally::new, of_row).reduce(Tally::new, merge)
+        (0..height).into_par_iter().fold(Tally::new, of_row).sum()
     }
 
     /// The map in log-odds (nats), as large as what the beams have crossed.

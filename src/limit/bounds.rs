@@ -66,7 +66,7 @@ pub fn polar<T: Real>(sensor: &GaussianSensor<T>, resolution: T) -> Result<T, Er
 /// (min(V (1/2 + δ), W h / (8 σ)) + MI |observed - L/h|) / observed
 /// ```
 ///
-/// Proved, and rounded up.
+/// Proved ([`convergence`](crate::book::convergence)), and rounded up.
 ///
 /// # Errors
 /// That of [`polar`].
@@ -135,7 +135,7 @@ pub fn cartesian<T: Real>(sensor: &GaussianSensor<T>, resolution: T) -> Result<T
 ///
 /// Nearly all of a grid's error is the second term: the sum of information is good to `h^(5/2)`.
 ///
-/// Proved, and rounded up.
+/// Proved ([`convergence`](crate::book::convergence)), and rounded up.
 ///
 /// # Errors
 /// That of [`cartesian`].

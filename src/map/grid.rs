@@ -12,7 +12,7 @@ use rayon::prelude::*;
 /// An occupancy map: rows of square cells in one [`Encoding`], with its place in the world.
 ///
 /// Row 0 is the lowest (smallest y), as in ROS's `OccupancyGrid` and in MRPT; cells are stored row by row.
-/// Memory: one stored value per cell.
+/// Memory: one stored value per cell. Its measures are Eqs. 2 to 4 of the report ([`map`](crate::book::map)).
 ///
 /// ```
 /// use mean_information::map::{Geometry, Grid, encoding::Percent};
@@ -78,12 +78,12 @@ impl<E: Encoding> Grid<E> {
         (row < self.height).then(|| &self.cells[row * self.width..][..self.width])
     }
 
-    /// The occupancy of one cell; `None` outside the grid.
+    /// The occupancy of one cell, the bits of [`Encoding::occupancy`]; `None` outside the grid.
     pub fn occupancy(&self, row: usize, column: usize) -> Option<E::Float> {
         self.row(row)?.get(column).and_then(|&stored| E::occupancy(stored))
     }
 
-    /// Entropy, information and counts over all cells (Eqs. 2 to 4).
+    /// Entropy, information and counts over all cells (Eqs. 2 to 4); the sums are exact.
     pub fn tally(&self) -> Tally<E::Float> {
         E::tally(&self.cells)
     }

@@ -15,7 +15,7 @@ impl<E: Encoding> Grid<E> {
     ///
     /// Each mean is the exact mean of [`Encoding::occupancy`], rounded once to nearest. So a block of unknown cells is
     /// exactly 1/2, and stays unknown. By Jensen's inequality (`I` is convex) the information of a coarse cell is at
-    /// most the mean information of the cells it pools, up to that rounding.
+    /// most the mean information of the cells it pools, up to that rounding (proved, [`map`](crate::book::map)).
     ///
     /// Occupancies of log-odds are themselves rounded: a cell with `|l|` below about `2^-53` (`2^-24` in `f32`) pools as
     /// unknown, one above 37 (17) as certain.

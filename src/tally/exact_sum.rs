@@ -15,7 +15,8 @@ const LOWEST: i32 = -1074;
 /// The exact sum of non-negative numbers in `f32` or `f64`, each at most 1.
 ///
 /// Addition is exact, hence associative and commutative: any order and any tree of merges gives equal sums.
-/// Reading the sum, or its quotient by a count, rounds once, to nearest with ties to even.
+/// Reading the sum, or its quotient by a count, rounds once, to nearest with ties to even (proved,
+/// [`sums`](crate::book::sums)).
 ///
 /// ```
 /// use mean_information::ExactSum;

@@ -1,9 +1,12 @@
-//! `docs/architecture.md`: the tree is there, dependencies run one way.
+//! `docs/architecture.md`: the tree is there, dependencies run one way, files are small.
 
 use crate::{ROOT, read, rows, sources};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
+
+/// Tables that a generator wrote.
+const LONG: [&str; 2] = ["src/rounded/constants.rs", "src/limit/closed_form/tables.rs"];
 
 #[test]
 fn the_tree_is_the_tree() {
@@ -99,5 +102,18 @@ fn home(name: &str) -> &str {
         "Tally" | "Information" | "ExactSum" => "tally",
         "Failure" => "failure",
         module => module,
+    }
+}
+
+#[test]
+fn a_file_holds_one_idea() {
+    let folders =
+        ["src", "tests", "benches", "examples", "cli/src", "cli/tests", "cli/benches", "proofs/mutants/src"];
+    for folder in folders.into_iter().filter(|folder| Path::new(ROOT).join(folder).exists()) {
+        for file in sources(folder) {
+            let lines = read(&file).lines().count();
+            let long = LONG.iter().any(|name| file == Path::new(name));
+            assert!(lines <= 400 || long, "{}: {lines} lines", file.display());
+        }
     }
 }

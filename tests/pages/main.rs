@@ -1,6 +1,7 @@
-//! The pages beside the code say what the code says: the map of the report and the architecture.
+//! The pages beside the code say what the code says: the map of the report, the architecture, the docstrings.
 
 mod architecture;
+mod docstrings;
 mod paper;
 
 use std::fs;

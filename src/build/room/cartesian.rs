@@ -18,7 +18,8 @@ use num_traits::Zero;
 /// sensor's reach of the axis.
 ///
 /// Offsets of 0 put the sensor on a cell's centre, offsets of 1/2 on a corner. A sample's distance is the exact one, from the
-/// exact values of the floats, rounded once to nearest; its occupancy is what the model gives for that float.
+/// exact values of the floats, rounded once to nearest; its occupancy is what the model gives for that float
+/// ([`grids`](crate::book::grids)).
 ///
 /// ```
 /// use mean_information::build::CartesianRoom;

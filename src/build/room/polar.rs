@@ -16,7 +16,8 @@ use alloc::vec::Vec;
 /// sample within the sensor's reach.
 ///
 /// All sectors are alike, so one stands for the map. Ring `k` has its centre at `(k + 1/2) h`. A sample's distance is the
-/// exact one rounded once to nearest, and its occupancy what the model gives for that float.
+/// exact one rounded once to nearest, and its occupancy what the model gives for that float
+/// ([`grids`](crate::book::grids)).
 ///
 /// ```
 /// use mean_information::build::PolarRoom;

@@ -321,3 +321,29 @@ fn pictures_travel_with_their_pages() {
         assert_eq!(shown, pictures, "docs/{name}.md and src/book/mod.rs");
     }
 }
+
+/// What the page on notation calls an identifier is one.
+#[test]
+fn identifiers_of_the_notation_are_in_the_source() {
+    let mut folders = vec![root().join("src")];
+    let mut words = BTreeSet::new();
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|extension| extension == "rs") {
+                let source = read(&path);
+                words.extend(source.split(|c: char| !c.is_alphanumeric() && c != '_').map(str::to_owned));
+            }
+        }
+    }
+    let page = chapter("notation");
+    let rows = page.lines().filter(|line| line.starts_with("| ") && line.split('|').count() == 6);
+    let identifiers =
+        rows.flat_map(|row| row.split('|').nth(4).expect("a column").split('`').skip(1).step_by(2));
+    let identifiers: Vec<_> = identifiers.flat_map(|identifier| identifier.split("::")).collect();
+    assert!(identifiers.len() > 30, "{identifiers:?}");
+    let unknown: Vec<_> = identifiers.iter().filter(|&&identifier| !words.contains(identifier)).collect();
+    assert!(unknown.is_empty(), "{unknown:?}");
+}

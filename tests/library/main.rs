@@ -2,7 +2,6 @@
 
 mod adaptive;
 mod battery;
-mod book;
 mod bounds;
 mod cell;
 mod closed_form;

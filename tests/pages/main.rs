@@ -1,6 +1,8 @@
-//! The pages beside the code say what the code says: the map of the report, the architecture, the docstrings.
+//! The pages beside the code say what the code says: the book, the map of the report, the architecture, the
+//! docstrings.
 
 mod architecture;
+mod book;
 mod docstrings;
 mod paper;
 

@@ -1,5 +1,6 @@
 //! The book: every equation of the report and every theorem is executed in its section, every link leads somewhere.
 
+use crate::read;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::ops::Range;
@@ -49,13 +50,9 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-fn read(path: &Path) -> String {
-    fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
-}
-
 /// The chapters that rustdoc shows, in their order, and the pictures of each.
 fn chapters() -> Vec<(String, Vec<String>)> {
-    let source = read(&root().join("src/book/mod.rs"));
+    let source = read(root().join("src/book/mod.rs"));
     let list = source
         .split("chapters! {")
         .nth(1)
@@ -70,7 +67,7 @@ fn chapters() -> Vec<(String, Vec<String>)> {
 }
 
 fn chapter(name: &str) -> String {
-    read(&root().join("docs").join(name).with_extension("md"))
+    read(root().join("docs").join(name).with_extension("md"))
 }
 
 #[test]
@@ -87,7 +84,7 @@ fn the_chapters_are_the_files_in_the_order_of_the_contents() {
     assert!(chapters.iter().all(|name| names.contains(name)));
 
     let contents = chapter("README");
-    let rows = contents.lines().filter(|line| line.starts_with("| ") && line.contains("]"));
+    let rows = contents.lines().filter(|line| line.starts_with("| ") && line.contains(']'));
     let label = |row: &str| {
         let cell = row.split('|').nth(2).expect("a cell").trim();
         let label = cell.rsplit_once('[').expect("a link").1.trim_end_matches(']');
@@ -171,7 +168,7 @@ fn prose(text: &str) -> String {
         if k % 2 == 0 {
             prose.push_str(part);
         } else if prose.ends_with('[') {
-            prose.push_str(&format!("`{part}`"));
+            prose.extend(["`", part, "`"]);
         }
     }
     prose
@@ -229,10 +226,11 @@ fn pages() -> Vec<PathBuf> {
         for entry in fs::read_dir(&folder).expect("a folder") {
             let path = entry.expect("an entry").path();
             let name = path.file_name().unwrap().to_str().unwrap().to_owned();
-            if path.is_dir() && !name.starts_with('.') && !["target", "node_modules"].contains(&name.as_str())
-            {
+            if path.is_dir() && !name.starts_with('.') && name != "target" {
                 folders.push(path);
-            } else if name.ends_with(".md") && path != root().join("src/book/links.md") {
+            } else if path.extension().is_some_and(|extension| extension == "md")
+                && path != root().join("src/book/links.md")
+            {
                 pages.push(path);
             }
         }
@@ -278,7 +276,7 @@ fn links_lead_somewhere() {
 /// What rustdoc is told of a label is what the chapters say of it: the same chapter, or an item in that file.
 #[test]
 fn labels_mean_the_same_to_rustdoc() {
-    let items = read(&root().join("src/book/links.md"));
+    let items = read(root().join("src/book/links.md"));
     let (_, _, items) = links(&items);
     let mut used = BTreeSet::new();
     for name in chapters().into_iter().map(|(name, _)| name).chain(["README".to_owned()]) {
@@ -294,7 +292,7 @@ fn labels_mean_the_same_to_rustdoc() {
             } else if item == "crate::book" {
                 assert_eq!(target, "README.md", "docs/{name}.md: [{label}]");
             } else {
-                let source = read(&root().join("docs").join(&target));
+                let source = read(root().join("docs").join(&target));
                 let defined = item.rsplit("::").next().expect("a name");
                 let file = [format!("/{defined}.rs"), format!("/{defined}/mod.rs")];
                 let kinds = ["struct", "enum", "trait", "fn", "const", "type"];
@@ -317,7 +315,10 @@ fn labels_mean_the_same_to_rustdoc() {
 fn pictures_travel_with_their_pages() {
     for (name, pictures) in chapters() {
         let (targets, _, _) = links(&chapter(&name));
-        let shown: Vec<_> = targets.into_iter().filter(|target| target.ends_with(".svg")).collect();
+        let shown: Vec<_> = targets
+            .into_iter()
+            .filter(|target| Path::new(target).extension() == Some("svg".as_ref()))
+            .collect();
         assert_eq!(shown, pictures, "docs/{name}.md and src/book/mod.rs");
     }
 }

@@ -13,7 +13,7 @@ use mean_information::cell::{
 };
 use mean_information::elementary::{exp, ln, sqrt};
 use mean_information::limit::{Weight, closed_form};
-use mean_information::sensor::{GaussianSensor, InverseSensorModel};
+use mean_information::sensor::{GaussianSensor, InverseSensorModel, SteppedSensor};
 use mean_information::{ExactSum, Real};
 use std::hint::black_box;
 use std::process::Command;
@@ -65,7 +65,7 @@ fn add(x: f64) -> f64 {
 
 /// From a sensor somewhere in its cell to the centre of cell `(i, i / 2)`.
 fn distance(i: f64) -> f64 {
-    let sensor = GaussianSensor::new(2.0, 0.2).expect("a sensor");
+    let sensor = SteppedSensor::new(2.0, 0.2, 0.25, 0.875).expect("a sensor");
     let room = CartesianRoom::new(sensor, 0.05, [0.3, 0.1]).expect("a room");
     room.distance(i as i64, i as i64 / 2).expect("a cell")
 }

@@ -24,6 +24,9 @@ use rayon::prelude::*;
 /// that touched it, in integers, so any order of scans gives the same bits. Nothing known is 0: prior 1/2
 /// ([`scan`](crate::book::scan)).
 ///
+/// Memory: 16 bytes for each cell of the rectangle that was seen, and to spare half as much again on each side that
+/// grew; while a scan is inserted, two floats for each cell of the rectangle of that scan.
+///
 /// ```
 /// use mean_information::build::{Beam, Pose, Scan, ScanMap};
 /// use mean_information::sensor::GaussianSensor;

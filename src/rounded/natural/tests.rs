@@ -28,6 +28,7 @@ proptest! {
         prop_assert_eq!(big(&a.shifted(shift)), big(&a) << shift);
         prop_assert_eq!(a.bits() as u64, big(&a).bits());
         prop_assert_eq!(a.cmp(&b), big(&a).cmp(&big(&b)));
+        prop_assert!((a == b) == (big(&a) == big(&b)) && a != a.clone().plus(&1.into()));
         let (difference, negative) = a.difference(&b);
         let (large, small) = if negative { (&b, &a) } else { (&a, &b) };
         prop_assert_eq!(big(&difference) + big(small), big(large));

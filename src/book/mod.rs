@@ -3,7 +3,8 @@
 #![doc = include_str!("typeset.html")]
 
 /// Chapters from `docs/`, in the order of reading: their links lead to items here, where on their own they lead to files;
-/// figures travel in the page, since rustdoc copies no files.
+/// figures travel in the page, since rustdoc copies no files. A doctest that fails is named by the line of its chapter, plus
+/// the number of lines of `links.md`.
 macro_rules! chapters {
     ($($name:ident $(shows $($figure:literal)+)?;)*) => {$(
         #[doc = include_str!("links.md")]

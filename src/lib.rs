@@ -75,7 +75,8 @@
 //! # Features
 //! * `std` (default): maps of occupancies in floats are measured by the vector unit that the processor turns out to have, to
 //!   the same bits, many times as fast (`benches/RESULTS.md`). Without it the crate is `no_std` + `alloc`.
-//! * `rayon`: maps and rooms are measured by several threads, to the same bits (`Grid::par_tally` and others).
+//! * `rayon`: maps, rooms, scans' maps and expected maps are measured by several threads, to the same bits
+//!   (`Grid::par_tally` and others).
 //! * `vectors`: arguments with their exact results for every operation, as text, to check an implementation against.
 //! * `serde`: tallies can be written and read, so that parts of a map measured on several machines merge to the same bits.
 //!

@@ -3,7 +3,7 @@
 use super::common::occupancy;
 use mean_information::cell::{Cell, information};
 use mean_information::map::encoding::{LogOdds, MrptLogOdds, Percent, Probability};
-use mean_information::map::{Encoding, Geometry, Grid, PolarMap};
+use mean_information::map::{Encoding, Geometry, Grid, Histogram, PolarMap};
 use mean_information::{Error, Information, Real, Tally};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -184,6 +184,47 @@ fn repeated_log_odds_are_counted_as_cells_one_by_one() {
     }
     check::<f64>(20_011);
     check::<f32>(7001);
+}
+
+/// As `costmap_2d` stores them: costs to 254, 255 for unknown. Here with those above 200 not allowed.
+#[derive(Clone, Copy, Debug)]
+struct Costs;
+
+impl Encoding for Costs {
+    type Stored = u8;
+    type Float = f32;
+    const ALLOWED: &'static str = "0 to 200, or 255 for unknown";
+
+    fn unknown() -> u8 {
+        255
+    }
+
+    fn value(cost: u8) -> f64 {
+        cost.into()
+    }
+
+    fn cell(cost: u8) -> Option<Cell<f32>> {
+        Self::occupancy(cost).and_then(|p| Cell::from_occupancy(p).ok())
+    }
+
+    fn occupancy(cost: u8) -> Option<f32> {
+        match cost {
+            255 => Some(0.5),
+            0..=200 => Some(f32::from(cost) / 256.0),
+            _ => None,
+        }
+    }
+}
+
+#[test]
+fn an_encoding_of_ones_own_is_counted_too() {
+    let cells: Vec<u8> = (0..9000_u32).map(|k| (k / 7 % 256) as u8).collect();
+    let one_by_one: Tally<f32> = cells.iter().filter_map(|&cost| Costs::cell(cost)).collect();
+    assert_eq!(Costs::tally(&cells), one_by_one);
+    let histogram = Histogram::from_cells(&cells);
+    assert_eq!(histogram.tally::<Costs>(), one_by_one);
+    assert!(histogram.cells() == 9000 && one_by_one.cells() < 9000 && one_by_one.unknown() > 0);
+    assert_ne!(histogram, Histogram::from_cells(&cells[1..]));
 }
 
 /// The information of stored cells is that of their tally, and each is counted as the cell that it is.

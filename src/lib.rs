@@ -3,7 +3,8 @@
 //! The mean information (Blanco, *Derivation of an Expression for the Mean Information Maximum Value*, University of Malaga)
 //! says how certain and consistent an occupancy map is. Per cell, `I = 1 - H` with the Bernoulli entropy `H` in bits; the
 //! mean information is the sum of `I` over the number of observed cells, those with `p != 1/2`. It needs no ground truth, lies
-//! in `[0, 1]`, and unlike the entropy it does not depend on the size of the map and hardly on its resolution.
+//! in `[0, 1]`, and unlike the entropy it does not depend on the size of the map, and little on its resolution while cells are
+//! small beside the sensor's noise.
 //!
 //! ```
 //! use mean_information::map::{Geometry, Grid, encoding::Probability};

@@ -5,7 +5,7 @@ use crate::convergence::{Convergence, GridKind, Series};
 use crate::failure::Failure;
 use crate::plots::{ConvergencePlot, Sheet, Svg};
 use mean_information::Error;
-use mean_information::limit::{Weight, closed_form, rigorous};
+use mean_information::limit::{RepeatedScans, Weight, closed_form, rigorous};
 use mean_information::quadrature::rigorous::Rigorous;
 use mean_information::sensor::GaussianSensor;
 
@@ -62,6 +62,7 @@ pub(super) fn section() -> Result<Section, Failure> {
     });
     let enclosed = enclosed.into_iter().collect::<Result<Vec<bool>, _>>()?;
     let claims = vec![
+        depends()?,
         Claim::corrected(
             "Section II, Eq. 7",
             "The limit has no analytical primitive; numerical integration gives its value.",
@@ -92,4 +93,27 @@ pub(super) fn section() -> Result<Section, Failure> {
         ),
     ];
     Ok(Section { figures: vec![figure], claims })
+}
+
+/// The limits of other sensors, environments and numbers of scans, each enclosed.
+fn depends() -> Result<Claim, Error> {
+    let limit = |range, sigma, scans| {
+        let scans = RepeatedScans::new(GaussianSensor::new(range, sigma)?, scans)?;
+        Ok::<_, Error>(rigorous(&scans, Weight::Radial, &Rigorous::default())?.lower)
+    };
+    let [range, sigma] = ROOMS[0];
+    let one = limit(range, sigma, 1)?;
+    let others = [limit(range, sigma / 4.0, 1)?, limit(range, sigma, 4)?, limit(2.5 * range, sigma, 1)?];
+    let [sensor, scans, environment] = others;
+    Ok(Claim::new(
+        "Section I, property 2, and Section II",
+        "The limit depends on the sensor model, the number of observations and the environment.",
+        others.into_iter().all(|other| other > one + 0.05),
+        format!(
+            "{one:.4} with R = {range} m and σ = {sigma} m; {sensor:.4} with σ = {} m, {scans:.4} with four scans, \
+             {environment:.4} with R = {} m",
+            sigma / 4.0,
+            2.5 * range
+        ),
+    ))
 }

@@ -79,7 +79,8 @@
 //! * `rayon`: maps, rooms, scans' maps and expected maps are measured by several threads, to the same bits
 //!   (`Grid::par_tally` and others).
 //! * `vectors`: arguments with their exact results for every operation, as text, to check an implementation against.
-//! * `serde`: tallies can be written and read, so that parts of a map measured on several machines merge to the same bits.
+//! * `serde`: tallies and histograms can be written and read, so that parts of a map measured on several machines merge to
+//!   the same bits.
 //!
 //! The dependencies are `num-traits`, for the vocabulary of generic float code, and with `std` `multiversion`, a macro that
 //! compiles a function for several vector units.

@@ -1,7 +1,8 @@
 //! Tallies that travel as text (feature `serde`).
 
 use mean_information::build::Hypotheses;
-use mean_information::map::{Geometry, Grid, encoding::Probability};
+use mean_information::map::encoding::{Percent, Probability};
+use mean_information::map::{Geometry, Grid, Histogram};
 use mean_information::{Information, Tally, cell::Cell};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -28,6 +29,26 @@ proptest! {
         arrived.merge(&Information::from_occupancies(&there));
         prop_assert_eq!(arrived, Information::from_occupancies(&[here, there].concat()));
     }
+}
+
+#[test]
+fn a_histogram_travels_as_its_counts() {
+    let mut histogram = Histogram::from_cells(&[-1_i8, 3, 3]);
+    histogram.add_many(0_i8, u64::MAX - 3);
+    let text = serde_json::to_string(&histogram).unwrap();
+    assert_eq!(text, format!("[{},0,0,2,{}1]", u64::MAX - 3, "0,".repeat(251)));
+    let arrived: Histogram = serde_json::from_str(&text).unwrap();
+    assert_eq!((&arrived, arrived.cells()), (&histogram, u64::MAX));
+    let arrived: Histogram = serde_json::from_str(&format!("[{}7]", "0,".repeat(255))).unwrap();
+    assert_eq!(arrived.tally::<Percent>().unknown(), 7);
+
+    let refused = |text: &str| serde_json::from_str::<Histogram>(text).unwrap_err().to_string();
+    assert!(refused(&text.replace(",2,", ",3,")).contains("a histogram counts at most 2^64 - 1 cells"));
+    for count in [0, 255, 257] {
+        let words = format!("a histogram is a list of 256 counts, not of {count}");
+        assert!(refused(&format!("{:?}", vec![1; count])).contains(&words));
+    }
+    assert!(refused(&text.replace(",2,", ",-2,")).contains("-2"));
 }
 
 /// Its sums are finer than floats, and still sums of the smallest numbers of the format.

@@ -7,6 +7,8 @@ mod grid;
 mod histogram;
 mod polar;
 mod pooling;
+#[cfg(feature = "serde")]
+mod portable;
 mod repeated;
 
 pub use encoding::Encoding;

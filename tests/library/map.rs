@@ -225,6 +225,38 @@ fn an_encoding_of_ones_own_is_counted_too() {
     assert_eq!(histogram.tally::<Costs>(), one_by_one);
     assert!(histogram.cells() == 9000 && one_by_one.cells() < 9000 && one_by_one.unknown() > 0);
     assert_ne!(histogram, Histogram::from_cells(&cells[1..]));
+    assert_eq!(histogram.information::<Costs>(), (&one_by_one).into());
+}
+
+/// One by one, many at once and in parts: the same histogram, and information and tally of all cells.
+#[test]
+fn a_histogram_by_parts() {
+    let cells: Vec<i8> = (0..70_000_i64).map(|k| (k * k / 300 % 102 - 1) as i8).collect();
+    let all = Histogram::from_cells(&cells);
+    assert_eq!(all.tally::<Percent>(), cells.iter().filter_map(|&cell| Percent::cell(cell)).collect());
+    assert_eq!(all.information::<Percent>(), (&all.tally::<Percent>()).into());
+    assert_ne!(all.information::<Percent>(), all.information::<MrptLogOdds>());
+    for piece in [7, 300, 5000] {
+        let parts = cells.chunks(piece).map(Histogram::from_cells);
+        let sum: Histogram = parts.sum();
+        assert_eq!((&sum, sum.cells()), (&all, 70_000));
+    }
+    assert_eq!(cells.iter().copied().collect::<Histogram>(), all);
+    let (mut counted, mut extended) = (Histogram::new(), Histogram::new());
+    for percent in -1..=100_i8 {
+        counted.add_many(percent, all.count(percent));
+    }
+    assert_eq!((&counted, counted.cells()), (&all, 70_000));
+    extended.extend(cells.iter().map(|&cell| cell as u8));
+    assert_eq!((&extended, extended.cells()), (&all, 70_000));
+    assert_eq!([].into_iter().sum::<Histogram>(), Histogram::new());
+}
+
+#[test]
+#[should_panic(expected = "a histogram counts at most 2^64 - 1 cells")]
+fn a_histogram_does_not_wrap_around() {
+    let mut histogram = Histogram::from_cells(&[3_u8]);
+    histogram.add_many(5_u8, u64::MAX);
 }
 
 /// The information of stored cells is that of their tally, and each is counted as the cell that it is.

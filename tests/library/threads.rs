@@ -2,9 +2,10 @@
 
 use mean_information::build::{Beam, CartesianRoom, Hypotheses, Pose, Scan, ScanMap};
 use mean_information::map::encoding::{Encoding, MrptLogOdds, Probability};
-use mean_information::map::{Geometry, Grid};
+use mean_information::map::{Geometry, Grid, Histogram};
 use mean_information::sensor::GaussianSensor;
 use rayon::ThreadPoolBuilder;
+use rayon::prelude::*;
 
 /// What `work` gives by one, two, three and seven threads.
 fn by_threads<R: Send>(work: impl Fn() -> R + Sync) -> Vec<R> {
@@ -27,6 +28,9 @@ fn maps_of_floats_and_of_bytes() {
     let cells = |count: i32| (0..count).map(|k| (f64::from(k) * 0.618_033_988_7).fract());
     check::<Probability<f64>>(700, cells(700 * 500).collect());
     check::<Probability<f32>>(900, cells(900 * 700).map(|p| p as f32).collect());
+    let bytes: Vec<i8> = cells(70_000).map(|p| (p * 255.0 - 127.0) as i8).collect();
+    let by_threads = by_threads(|| bytes.par_chunks(900).map(Histogram::from_cells).sum::<Histogram>());
+    assert!(by_threads.into_iter().all(|by_threads| by_threads == Histogram::from_cells(&bytes)));
     check::<MrptLogOdds>(1300, cells(1300 * 1900).map(|p| (p * 255.0 - 127.0) as i8).collect());
 }
 

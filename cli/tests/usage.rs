@@ -3,6 +3,7 @@
 mod common;
 
 use common::*;
+use mean_information_cli::maps::{MAX_CELLS, MAX_COUNTED};
 use std::fs;
 use std::io;
 use std::process::{Command, Stdio};
@@ -26,12 +27,14 @@ fn help_and_version_are_done() {
     ] {
         assert!(help.contains(option), "{option}");
     }
-    assert_eq!(
-        (help.matches("268435456").count(), help.contains("2^")),
-        (1, false),
-        "the limit is said once"
-    );
-    assert!(help.contains("1 byte a cell, 8 in --mode probability"), "{help}");
+    // The limits as they are, each said once.
+    for limit in [MAX_CELLS, MAX_COUNTED].map(|limit| limit.to_string()) {
+        assert_eq!((help.matches(&limit).count(), help.contains("2^")), (1, false), "{limit}");
+    }
+    let help = help.split_whitespace().collect::<Vec<_>>().join(" ");
+    for words in ["1 byte a cell, 8 in --mode probability", "17179869184 for PNG, and none for PGM"] {
+        assert!(help.contains(words), "{help}");
+    }
     assert!(stdout(&["sweep", "--help"]).contains("--plot"));
 }
 
@@ -81,8 +84,23 @@ fn a_file_that_cannot_be_read_is_named() {
 fn a_map_with_too_many_cells_is_refused() {
     let folder = Folder::new();
     let map = folder.ros_map("room", 5, &GREYS, "scale");
-    refusal(&["map", &map, "--max-cells", "14"]);
+    let line = refusal(&["map", &map, "--max-cells", "14"]);
+    assert!(line.contains("5 x 3 = 15 cells, more than the limit of 14"), "{line}");
     stdout(&["map", &map, "--max-cells", "15"]);
+}
+
+/// Of an image only the pixels are counted, unless a picture or a sweep needs them: then there is a limit.
+#[test]
+fn a_large_image_is_counted_and_not_kept() {
+    let folder = Folder::new();
+    let map = folder.ros_map("room", 5, &GREYS, "scale");
+    fs::write(folder.path("room.pgm"), "P5 32768 8193 255\nmore").unwrap();
+    assert!(refusal(&["map", &map]).contains("cut short"));
+    let picture = folder.text_path("picture.png");
+    for arguments in [&["map", &map, "--heat-map", &picture][..], &["sweep", &map]] {
+        let line = refusal(arguments);
+        assert!(line.contains("32768 x 8193 = 268468224 cells, more than the limit of 268435456"), "{line}");
+    }
 }
 
 /// The message is lost, but not the exit status.

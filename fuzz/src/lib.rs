@@ -57,7 +57,8 @@ fn image(bytes: &[u8]) {
                 free_thresh: 0.25,
                 mode,
             };
-            let options = Options { semantics, max_cells: MAX_CELLS, unknown: Some(1), ..Options::default() };
+            let options =
+                Options { semantics, max_cells: Some(MAX_CELLS), unknown: Some(1), ..Options::default() };
             kept(read_image(Cursor::new(bytes), &description, &options)).map(|map| checked(&map))
         })
     });
@@ -74,7 +75,7 @@ pub fn npy(bytes: &[u8]) {
         Some(ArrayEncoding::LogOdds),
         Some(ArrayEncoding::Mrpt),
     ] {
-        let options = Options { encoding, max_cells: MAX_CELLS, ..Options::default() };
+        let options = Options { encoding, max_cells: Some(MAX_CELLS), ..Options::default() };
         if let Some(map) = kept(npy::read(bytes, bytes.len() as u64, &options)) {
             checked(&map);
         }
@@ -84,10 +85,10 @@ pub fn npy(bytes: &[u8]) {
 /// An array is read as a stack of particles' maps, and as weights, or refused.
 pub fn stack(bytes: &[u8]) {
     for encoding in [None, Some(ArrayEncoding::LogOdds), Some(ArrayEncoding::Mrpt)] {
-        let options = Options { encoding, max_cells: MAX_CELLS, ..Options::default() };
+        let options = Options { encoding, max_cells: Some(MAX_CELLS), ..Options::default() };
         kept(npy::read_stack(bytes, bytes.len() as u64, &options, Checked));
     }
-    let options = Options { max_cells: MAX_CELLS, ..Options::default() };
+    let options = Options { max_cells: Some(MAX_CELLS), ..Options::default() };
     if let Some(weights) = kept(npy::read_weights(bytes, bytes.len() as u64, &options)) {
         assert!(weights.len() as u64 <= MAX_CELLS);
     }
@@ -111,7 +112,7 @@ impl npy::WithMaps for Checked {
 
 /// A grid map is read or refused, plain and zipped.
 pub fn gridmap(bytes: &[u8]) {
-    let options = Options { max_cells: MAX_CELLS, ..Options::default() };
+    let options = Options { max_cells: Some(MAX_CELLS), ..Options::default() };
     if let Some(map) = kept(gridmap::read(bytes, &options)) {
         checked(&map);
     }

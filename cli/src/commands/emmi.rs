@@ -41,7 +41,7 @@ impl Arguments {
         let options = Options {
             encoding: self.encoding,
             resolution: self.resolution,
-            max_cells: self.max_cells,
+            max_cells: Some(self.max_cells),
             ..Options::default()
         };
         let weights = maps::read_weights(&self.weights, &options)?;

@@ -187,7 +187,7 @@ impl Named<'_> {
         let name = self.image.file_name().and_then(|name| name.to_str());
         let name = name.ok_or_else(|| Problem::new(self.image, "has a name that is not UTF-8 text"))?;
         let saved = ros::save(map, name, comment).map_err(|fault| fault.in_file(self.image))?;
-        let options = Options { max_cells: u64::MAX, ..Options::default() };
+        let options = Options { max_cells: Some(u64::MAX), ..Options::default() };
         let description = ros::Description::read(saved.yaml.as_bytes(), Semantics::Nav2)
             .map_err(|fault| fault.in_file(self.yaml))?;
         let read = ros::read_image(Cursor::new(&saved.image), &description, &options)

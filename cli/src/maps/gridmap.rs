@@ -39,7 +39,7 @@ fn read_plain(mut input: impl Read, options: &Options) -> Result<Map, Fault> {
     }
     let width = u32::from_le_bytes(bytes(&mut input)?);
     let height = u32::from_le_bytes(bytes(&mut input)?);
-    let size = Size::within(width.into(), height.into(), options.max_cells)?;
+    let size = Size::within(width.into(), height.into(), options.max_kept())?;
     let mut number = || Ok::<_, Fault>(f64::from(f32::from_le_bytes(bytes(&mut input)?)));
     let [x_min, x_max, y_min, y_max, resolution] = [number()?, number()?, number()?, number()?, number()?];
     let geometry = size.placed(resolution, [x_min, y_min], 0.0)?;

@@ -11,7 +11,7 @@ pub mod ros;
 mod size;
 
 pub use cells::{Cells, Contents, Counted, Readable, with_grid};
-pub use options::{ArrayEncoding, MAX_CELLS, Mode, Options, Semantics};
+pub use options::{ArrayEncoding, MAX_CELLS, MAX_COUNTED, Mode, Options, Semantics};
 pub(crate) use problem::one_line;
 pub use problem::{Fault, Problem};
 

@@ -2,9 +2,13 @@
 
 use clap::{Args, ValueEnum};
 
-/// The most cells a map may have unless the caller says otherwise: 16384 x 16384, which take 2 GiB at
+/// The most cells that are kept of a map unless the caller says otherwise: 16384 x 16384, which take 2 GiB at
 /// 8 bytes each.
 pub const MAX_CELLS: u64 = 1 << 28;
+
+/// The most pixels of a compressed image that are counted unless the caller says otherwise: 131072 x 131072. They take
+/// no memory, but time, and a small file can hold a thousand times as many pixels as bytes.
+pub const MAX_COUNTED: u64 = 1 << 34;
 
 /// Whose rules turn grey levels into percentages.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -61,14 +65,15 @@ pub struct Options {
     /// The side of a cell of an .npy array in metres.
     #[arg(long, value_name = "METRES", value_parser = positive)]
     pub resolution: Option<f64>,
-    /// Refuse a map of more cells than this before memory is taken for it: 1 byte a cell, 8 in --mode probability, and
-    /// as many in .npy arrays as the file has.
-    #[arg(long, value_name = "N", default_value_t = MAX_CELLS)]
-    pub max_cells: u64,
+    /// Refuse a map of more cells than this before any is read; if absent, of more than 268435456 where cells are kept:
+    /// 1 byte a cell, 8 in --mode probability, and as many in .npy arrays as the file has. Where `meaninfo map` only
+    /// counts the pixels of an image, which takes no memory, the limit is 17179869184 for PNG, and none for PGM.
+    #[arg(long, value_name = "N")]
+    pub max_cells: Option<u64>,
 }
 
 impl Default for Options {
-    /// nav2's rules, everything else as the file says, and at most [`MAX_CELLS`] cells.
+    /// nav2's rules, and everything else as the file says.
     fn default() -> Self {
         Self {
             semantics: Semantics::default(),
@@ -76,8 +81,15 @@ impl Default for Options {
             unknown: None,
             encoding: None,
             resolution: None,
-            max_cells: MAX_CELLS,
+            max_cells: None,
         }
+    }
+}
+
+impl Options {
+    /// The most cells of a map whose cells are kept.
+    pub(crate) fn max_kept(&self) -> u64 {
+        self.max_cells.unwrap_or(MAX_CELLS)
     }
 }
 

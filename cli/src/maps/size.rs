@@ -23,14 +23,28 @@ impl Size {
     /// A [`Fault`] stating the limit if it has more cells than `max_cells`.
     pub(crate) fn within(width: u64, height: u64, max_cells: u64) -> Result<Self, Fault> {
         let cells = u128::from(width) * u128::from(height);
-        let fits = |n: u64| usize::try_from(n).ok().filter(|_| cells <= u128::from(max_cells));
-        match (fits(width), fits(height)) {
-            (Some(width), Some(height)) if isize::try_from(cells).is_ok() => Ok(Self { width, height }),
-            _ => Err(Fault::new(format!(
-                "claims {width} x {height} = {cells} cells, more than the limit of {max_cells}; \
-                 raise it with --max-cells if the file is meant"
-            ))),
+        Self::claimed(width, height, max_cells, || format!("{width} x {height} = {cells} cells,"))
+    }
+
+    /// The size of what a file claims to have.
+    ///
+    /// # Errors
+    /// A [`Fault`] with the claim and the limit if it has more cells than `max_cells`.
+    pub(crate) fn claimed(
+        width: u64,
+        height: u64,
+        max_cells: u64,
+        claim: impl FnOnce() -> String,
+    ) -> Result<Self, Fault> {
+        // More cannot be numbered.
+        let limit = max_cells.min(isize::MAX as u64);
+        if u128::from(width) * u128::from(height) <= u128::from(limit)
+            && let (Ok(width), Ok(height)) = (width.try_into(), height.try_into())
+        {
+            return Ok(Self { width, height });
         }
+        let raise = if limit == max_cells { "; raise it with --max-cells if the file is meant" } else { "" };
+        Err(Fault::new(format!("claims {} more than the limit of {limit}{raise}", claim())))
     }
 
     /// Columns times rows.
@@ -112,7 +126,13 @@ mod tests {
         assert_eq!(Size::within(5, 7, 35), Ok(Size { width: 5, height: 7 }));
         let refused = Size::within(5, 7, 34).unwrap_err().to_string();
         assert!(refused.contains("5 x 7 = 35 cells") && refused.contains("limit of 34"), "{refused}");
-        assert!(Size::within(1 << 32, 1 << 32, u64::MAX).is_err());
+        assert!(
+            refused.ends_with("limit of 34; raise it with --max-cells if the file is meant"),
+            "{refused}"
+        );
+        let refused = Size::within(1 << 32, 1 << 31, u64::MAX).unwrap_err().to_string();
+        assert!(refused.ends_with(&format!("cells, more than the limit of {}", isize::MAX)), "{refused}");
+        assert!(Size::within(1, isize::MAX as u64, u64::MAX).is_ok());
         assert!(Size::within(u64::MAX, u64::MAX, u64::MAX).is_err());
     }
 

@@ -2,7 +2,7 @@
 
 use crate::png_bytes::{raw_png, zlib};
 use crate::support::{Folder, pgm, read_twice, refusal, refusal_of, yaml};
-use mean_information_cli::maps::{Mode, Options, Semantics};
+use mean_information_cli::maps::{self, Mode, Options, Semantics};
 use std::fs;
 
 fn refused_image(name: &str, image: &[u8]) -> String {
@@ -140,7 +140,6 @@ fn images_that_do_not_hold_what_they_claim() {
         (b"P5 2 2 65536\n1234".to_vec(), "the maximum value in the header is 65536, allowed is 1 to 65535"),
         (b"P5 2".to_vec(), "the header ends before the height"),
         (b"P5 -2 2 255\n1234".to_vec(), "a number is malformed"),
-        (b"P5 2147483648 2147483648 255\n1234".to_vec(), "more than the limit of 268435456"),
         (b"P5 200000000 1 255\n1234".to_vec(), "cut short"),
         (b"P5 1 200000000 65535\n1234".to_vec(), "cut short"),
     ];
@@ -167,7 +166,6 @@ fn pngs_that_do_not_hold_what_they_claim() {
         (raw_png(3, 2, 8, 3, 0, &[idat(&rows)]), "malformed PNG"),
         (raw_png(3, 2, 5, 0, 0, &[idat(&rows)]), "malformed PNG"),
         (raw_png(0, 2, 8, 0, 0, &[idat(&rows)]), "malformed PNG"),
-        (raw_png(1 << 31, 1 << 31, 8, 0, 0, &[idat(&rows)]), "more than the limit of 268435456"),
         (raw_png(1 << 27, 1, 8, 0, 0, &[idat(&rows)]), "more than the 16 MiB allowed"),
         (raw_png(1, 1 << 27, 8, 0, 0, &[idat(&rows)]), "malformed PNG"),
         (raw_png(1 << 14, 1 << 14, 8, 0, 1, &[idat(&rows)]), "save it without interlacing"),
@@ -209,7 +207,52 @@ fn the_limit_on_cells_can_be_raised_and_lowered() {
     let folder = Folder::new();
     folder.write("image.pgm", pgm(3, 5, 255, &[0; 15]));
     let map = folder.write("map.yaml", yaml("image.pgm", "negate: 0\n"));
-    let read = |max_cells| read_twice(&map, &Options { max_cells, ..Options::default() });
+    let read = |max_cells| read_twice(&map, &Options { max_cells: Some(max_cells), ..Options::default() });
     assert!(read(15).is_ok());
     assert!(read(14).unwrap_err().to_string().contains("3 x 5 = 15 cells, more than the limit of 14"));
+}
+
+/// Cells that are kept take memory, pixels that are counted none: those have other limits.
+#[test]
+fn counted_pixels_have_a_limit_of_their_own() {
+    let idat = || ("IDAT", zlib(&[0]));
+    let folder = Folder::new();
+    for (name, image, kept, counted) in [
+        (
+            "above.pgm",
+            b"P5 16385 16384 255\n1234".to_vec(),
+            "claims 16385 x 16384 = 268451840 cells, more than the limit of 268435456; raise it with --max-cells",
+            "cut short",
+        ),
+        ("equal.pgm", b"P5 16384 16384 255\n1234".to_vec(), "cut short", "cut short"),
+        ("huge.pgm", b"P2 2147483648 2147483648 255\n1 2".to_vec(), "limit of 268435456", "holds 2 pixels"),
+        (
+            "endless.pgm",
+            b"P5 4294967295 4294967295 255\n1".to_vec(),
+            "limit of 268435456",
+            "cells, more than the limit of 9223372036854775807",
+        ),
+        ("above.png", raw_png(16385, 16384, 8, 0, 0, &[idat()]), "limit of 268435456", "malformed PNG"),
+        ("equal.png", raw_png(1 << 17, 1 << 17, 8, 0, 0, &[idat()]), "limit of 268435456", "malformed PNG"),
+        (
+            "huge.png",
+            raw_png(1 << 17, (1 << 17) + 1, 8, 0, 0, &[idat()]),
+            "limit of 268435456",
+            "claims 131072 x 131073 = 17180000256 cells, more than the limit of 17179869184; raise it",
+        ),
+    ] {
+        folder.write(name, image);
+        let map = folder.write("map.yaml", yaml(name, "negate: 0\n"));
+        let refused = maps::read(&map, &Options::default()).unwrap_err().to_string();
+        assert!(refused.contains(name) && refused.contains(kept), "{refused}: {kept}");
+        let refused = maps::read_contents(&map, &Options::default()).unwrap_err().to_string();
+        assert!(refused.contains(name) && refused.contains(counted), "{refused}: {counted}");
+    }
+    // What is said holds for both.
+    folder.write("above.pgm", b"P5 16385 16384 255\n1234");
+    let map = folder.write("map.yaml", yaml("above.pgm", "negate: 0\n"));
+    let options = Options { max_cells: Some(1 << 29), ..Options::default() };
+    assert!(refusal_of(&map, &options).contains("cut short"));
+    let options = Options { max_cells: Some(1 << 28), ..Options::default() };
+    assert!(refusal_of(&map, &options).contains("limit of 268435456"));
 }

@@ -93,6 +93,15 @@ pub(crate) enum Colours {
     Sdl,
 }
 
+/// The most pixels of an image, by how it is stored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct MaxPixels {
+    /// Of a PGM, which is at least as long as it has pixels.
+    pub(crate) pgm: u64,
+    /// Of a PNG, which is compressed.
+    pub(crate) png: u64,
+}
+
 /// An image whose header was read.
 pub(crate) enum Image<R: BufRead + Seek> {
     /// PGM.
@@ -105,13 +114,13 @@ impl<R: BufRead + Seek> Image<R> {
     /// Reads the header.
     ///
     /// # Errors
-    /// A [`Fault`] if this is no PGM or PNG, its header is malformed, or it has more pixels than `max_cells`.
-    pub(crate) fn open(mut input: R, colours: Colours, max_cells: u64) -> Result<Self, Fault> {
+    /// A [`Fault`] if this is no PGM or PNG, its header is malformed, or it has more than `most` pixels.
+    pub(crate) fn open(mut input: R, colours: Colours, most: MaxPixels) -> Result<Self, Fault> {
         match input.fill_buf()? {
             [] => Err(Fault::new("the file is empty; allowed are PGM (P2, P5) and PNG images")),
-            [b'P', b'2' | b'5', ..] => pgm::Pgm::open(input, max_cells).map(Self::Pgm),
+            [b'P', b'2' | b'5', ..] => pgm::Pgm::open(input, most.pgm).map(Self::Pgm),
             [0x89, b'P', b'N', b'G', ..] => {
-                png::Png::open(input, colours, max_cells).map(|png| Self::Png(Box::new(png)))
+                png::Png::open(input, colours, most.png).map(|png| Self::Png(Box::new(png)))
             }
             _ => Err(Fault::new("is no image this program reads; allowed are PGM (P2, P5) and PNG")),
         }

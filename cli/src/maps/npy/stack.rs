@@ -46,7 +46,7 @@ pub fn read_stack<W: WithMaps>(
 pub fn read_weights(mut input: impl Read, length: u64, options: &Options) -> Result<Vec<f64>, Fault> {
     let header = Header::read(&mut input, header::WEIGHTS)?;
     let [count] = header.dimensions("the weights")?;
-    let size = Size::within(count, 1, options.max_cells)?;
+    let size = Size::within(count, 1, options.max_kept())?;
     header.check_length(length, count)?;
     let mut values = Values { input, header: &header };
     match header.element {
@@ -68,7 +68,10 @@ pub(super) fn with_maps<W: WithMaps>(
     options: &Options,
     what: W,
 ) -> Result<W::Output, Fault> {
-    let all = Size::within(columns, rows.saturating_mul(count), options.max_cells)?;
+    let all = Size::claimed(columns, rows.saturating_mul(count), options.max_kept(), || match count {
+        1 => format!("{columns} x {rows} = {} cells,", u128::from(columns) * u128::from(rows)),
+        _ => format!("{count} particles of {columns} x {rows} cells, together"),
+    })?;
     header.check_length(length, all.cells() as u64)?;
     // A factor of sizes that fit.
     let size = Size { width: all.width, height: all.height / (count.max(1) as usize) };

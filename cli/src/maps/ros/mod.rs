@@ -60,7 +60,7 @@ fn keep_image<K: Keep>(
         (_, Semantics::Nav2) => Colours::MeantIn8Bits,
         (_, Semantics::Ros1) => Colours::Sdl,
     };
-    let image = Image::open(input, colours, options.max_cells)?;
+    let image = Image::open(input, colours, K::max_pixels(options))?;
     let layout = image.layout();
     let [x, y, yaw] = description.origin;
     let geometry = layout.size.placed(description.resolution, [x, y], yaw)?;

@@ -154,9 +154,13 @@ fn pngs_that_do_not_hold_what_they_claim() {
     let idat = |data: &[u8]| ("IDAT", zlib(data));
     let rows = [0, 1, 2, 3, 0, 4, 5, 6];
     let good = raw_png(3, 2, 8, 0, 0, &[idat(&rows)]);
+    let interlaced = raw_png(1, 1, 8, 0, 1, &[idat(&rows[..2])]);
     let cases: Vec<(Vec<u8>, &str)> = vec![
         (good[..8].to_vec(), "cut short"),
         (good[..30].to_vec(), "cut short"),
+        ([&good[..], &[0]].concat(), "goes on after the end of the PNG; allowed is one image"),
+        ([&good[..], &good].concat(), "goes on after the end of the PNG"),
+        ([&interlaced[..], b"more"].concat(), "goes on after the end of the PNG"),
         (good[..good.len() - 20].to_vec(), "cut short"),
         (good[..good.len() - 4].to_vec(), "cut short"),
         (raw_png(3, 2, 8, 0, 0, &[]), "malformed PNG"),

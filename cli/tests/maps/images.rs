@@ -168,6 +168,22 @@ fn nav2_rounds_the_width_between_the_thresholds_once() {
     assert_eq!(percents(&read_with(&folder, "image.pgm", rule, &options)), [37]);
 }
 
+/// Decoders stop at the last row of the header.
+#[test]
+fn data_beyond_the_last_row_are_passed_over() {
+    let folder = Folder::new();
+    let rows = [0, 0, 255, 102, 0, 7, 8, 9, 0, 1];
+    for (rows, interlace) in [(&rows[..4], 0), (&rows[..8], 0), (&rows, 0), (&rows[..6], 1), (&rows, 1)] {
+        let width = if interlace == 1 { 1 } else { 3 };
+        let beyond = ("IDAT", zlib(rows));
+        folder.write("image.png", raw_png(width, 1, 8, 0, interlace, &[beyond]));
+        let map = read_with(&folder, "image.png", rules()[2], &Options::default());
+        folder.write("image.png", raw_png(width, 1, 8, 0, interlace, &[("IDAT", zlib(&rows[..4]))]));
+        let expected = read_with(&folder, "image.png", rules()[2], &Options::default());
+        assert_eq!(percents(&map), percents(&expected));
+    }
+}
+
 /// Text says nothing of cells: too much of it, or broken, is passed over.
 #[test]
 fn text_in_a_png_is_passed_over() {

@@ -134,10 +134,10 @@ impl<R: BufRead + Seek> Image<R> {
         }
     }
 
-    /// Gives all pixels in reading order, some whole pixels at a time, and checks that the file ends with them.
+    /// Gives all pixels in reading order, some whole pixels at a time, and checks that the file ends with the image.
     ///
     /// # Errors
-    /// A [`Fault`] if the image is cut short or malformed, or what `each` returns.
+    /// A [`Fault`] if the image is cut short or malformed or something follows it, or what `each` returns.
     pub(crate) fn pixels(self, each: impl FnMut(&[u8]) -> Result<(), Fault>) -> Result<(), Fault> {
         match self {
             Self::Pgm(pgm) => pgm.pixels(each),

@@ -1,10 +1,12 @@
 //! PNG by the `png` crate, row by row: memory grows with the pixels the file really holds.
 //!
+//! What the compressed data hold beyond the last row is passed over, as by libpng, which the crate follows.
+//!
 //! An interlaced image must be held whole before its first row is known, so only small ones are read.
 
 use super::{Channels, Colours, Layout};
 use crate::maps::Fault;
-use crate::maps::size::Size;
+use crate::maps::size::{Size, at_end};
 use png::{BitDepth, ColorType, Decoder, DecodingError, Info, Limits, Reader, Transformations};
 use std::io::{BufRead, ErrorKind, Seek};
 
@@ -15,15 +17,19 @@ const INTERLACED_BYTES: usize = 64 << 20;
 
 /// A PNG whose header was read.
 pub(crate) struct Png<R: BufRead + Seek> {
-    reader: Reader<R>,
+    input: R,
+    transformations: Transformations,
     layout: Layout,
+    /// Whether samples of 16 bits are cut to their high byte.
+    cut: bool,
     /// The bits of a palette index, if the indices themselves are wanted.
     index_bits: Option<u8>,
 }
 
 impl<R: BufRead + Seek> Png<R> {
     pub(super) fn open(mut input: R, colours: Colours, max_cells: u64) -> Result<Self, Fault> {
-        // What is to be done with the colours depends on chunks that follow the header: read them twice.
+        // What is to be done with the colours depends on chunks that follow the header, and what comes of it on that:
+        // they are read again for either.
         let mut decoder = decoder_of(&mut input);
         let header = decoder.read_header_info().map_err(fault)?;
         let size = Size::within(header.width.into(), header.height.into(), max_cells)?;
@@ -52,13 +58,10 @@ impl<R: BufRead + Seek> Png<R> {
         let keyed = info.color_type == ColorType::Grayscale;
         let depth = info.bit_depth as u8;
         let few_greys = (keyed && depth < 8).then(|| (1 << depth) - 1);
+        let deep = info.bit_depth == BitDepth::Sixteen;
         drop(reader);
 
-        input.rewind()?;
-        let mut decoder = decoder_of(input);
-        decoder.set_transformations(transformations);
-        let reader = decoder.read_info().map_err(fault)?;
-        let (color, depth) = reader.output_color_type();
+        let (color, depth) = reader_of(&mut input, transformations)?.output_color_type();
         let channels = match color {
             ColorType::Grayscale | ColorType::Indexed => Channels::Grey,
             ColorType::GrayscaleAlpha if keyed => Channels::GreyKeyed,
@@ -68,7 +71,8 @@ impl<R: BufRead + Seek> Png<R> {
         };
         let max = if depth as u8 == 16 { 65535 } else { 255 };
         let white = few_greys.unwrap_or(max);
-        Ok(Self { reader, layout: Layout { size, channels, max, white }, index_bits })
+        let layout = Layout { size, channels, max, white };
+        Ok(Self { input, transformations, layout, cut: deep && max == 255, index_bits })
     }
 
     pub(super) fn layout(&self) -> Layout {
@@ -82,7 +86,7 @@ impl<R: BufRead + Seek> Png<R> {
 
     /// Whether samples of 16 bits are cut to their high byte.
     pub(crate) fn is_cut(&self) -> bool {
-        self.layout.max == 255 && self.reader.info().bit_depth == BitDepth::Sixteen
+        self.cut
     }
 
     pub(super) fn pixels(mut self, mut each: impl FnMut(&[u8]) -> Result<(), Fault>) -> Result<(), Fault> {
@@ -95,8 +99,9 @@ impl<R: BufRead + Seek> Png<R> {
                 each(&indices)
             }
         };
-        if self.reader.info().interlaced {
-            let bytes = self.reader.output_buffer_size().filter(|&bytes| bytes <= INTERLACED_BYTES);
+        let mut reader = reader_of(&mut self.input, self.transformations)?;
+        if reader.info().interlaced {
+            let bytes = reader.output_buffer_size().filter(|&bytes| bytes <= INTERLACED_BYTES);
             let Some(bytes) = bytes else {
                 return Err(Fault::new(format!(
                     "is an interlaced PNG of {width} x {height} pixels; these are read up to {} MiB: \
@@ -105,15 +110,28 @@ impl<R: BufRead + Seek> Png<R> {
                 )));
             };
             let mut image = vec![0; bytes];
-            self.reader.next_frame(&mut image).map_err(fault)?;
+            reader.next_frame(&mut image).map_err(fault)?;
             image.chunks_exact(bytes / height).try_for_each(&mut row_of)?;
         } else {
-            while let Some(row) = self.reader.next_row().map_err(fault)? {
+            while let Some(row) = reader.next_row().map_err(fault)? {
                 row_of(row.data())?;
             }
         }
-        self.reader.finish().map_err(fault)
+        reader.finish().map_err(fault)?;
+        drop(reader);
+        if at_end(self.input)? {
+            return Ok(());
+        }
+        Err(Fault::new("goes on after the end of the PNG; allowed is one image and nothing else"))
     }
+}
+
+/// From the beginning, up to the pixels.
+fn reader_of<R: BufRead + Seek>(mut input: R, transformations: Transformations) -> Result<Reader<R>, Fault> {
+    input.rewind()?;
+    let mut decoder = decoder_of(input);
+    decoder.set_transformations(transformations);
+    decoder.read_info().map_err(fault)
 }
 
 fn decoder_of<R: BufRead + Seek>(input: R) -> Decoder<R> {

@@ -180,7 +180,7 @@ impl Mean<'_> {
         self.sum.bits() + 3 >= self.total.bits() + self.whole()
     }
 
-    /// The first 62 bits of the magnitude, and whether there are more; `None` for 0.
+    /// The first 63 bits of the magnitude, and whether there are more; `None` for 0.
     pub(super) fn leading(&self) -> Option<(Leading, bool)> {
         leading(&self.sum, self.total, self.exponent)
     }

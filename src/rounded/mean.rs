@@ -1,4 +1,4 @@
-//! Entropy and information of a mean of occupancies, which is no float: from its first 62 bits, in fixed point.
+//! Entropy and information of a mean of occupancies, which is no float: from its first 63 bits, in fixed point.
 //!
 //! Of an argument `x + δ`, `x` its first 53 bits, the value is that at `x` and `δ` times the slope there: `log2 ((1 -
 //! q) / q)` of the entropy at `q`, twice the value over `d` of the information at `d`.
@@ -27,7 +27,7 @@ pub(crate) const CERTAIN: Both =
 /// Those of 1/2.
 pub(crate) const UNKNOWN: Both = (CERTAIN.1, CERTAIN.0);
 
-/// The first 53 bits as `m 2^-n` and the 11 that follow.
+/// The first 53 bits as `m 2^-n`, and the 10 that follow with a 0.
 fn split(x: Leading) -> (u64, i32, u64) {
     (x.m >> 11, -(x.e + 11), x.m & 0x7ff)
 }

@@ -151,7 +151,7 @@ pub(crate) fn quotient<T: Real>(n: &Natural, divisor: &Natural, e: i32) -> T {
     leading(n, divisor, e).map_or(T::zero(), |(leading, sticky)| leading.nearest(sticky))
 }
 
-/// The first bits of a positive number: `m 2^e`, `m` in `[2^63, 2^64)`.
+/// The first 63 bits of a positive number: `m 2^e`, `m` in `[2^63, 2^64)` and even.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Leading {
     pub(crate) m: u64,
@@ -165,8 +165,8 @@ impl Leading {
     }
 }
 
-/// `n 2^e / divisor` cut by less than `2^-62` of it, and whether it was cut; `None` if it is 0. Exponents stop at
-/// `-4096`.
+/// The first 63 bits of `n 2^e / divisor`, and whether there are more; `None` if it is 0. They are a function of the
+/// number, not of the fraction that it is written as. Exponents stop at `-4096`.
 pub(crate) fn leading(n: &Natural, divisor: &Natural, e: i32) -> Option<(Leading, bool)> {
     if n.is_zero() {
         return None;
@@ -180,10 +180,10 @@ pub(crate) fn leading(n: &Natural, divisor: &Natural, e: i32) -> Option<(Leading
         }
         _ => long_digit(n, scale, divisor),
     };
-    // n 2^e / divisor = digit 2^(e - scale).
+    // n 2^e / divisor = digit 2^(e - scale). Whether there is a 64th bit is up to the fraction: it is cut.
     let shift = digit.leading_zeros();
-    let e = i64::from(e) - scale - i64::from(shift);
-    Some((Leading { m: digit << shift, e: clamped(e) }, sticky))
+    let (m, e) = (digit << shift, i64::from(e) - scale - i64::from(shift));
+    Some((Leading { m: m & !1, e: clamped(e) }, sticky || m & 1 == 1))
 }
 
 /// A divisor of at most 128 bits, shifted to 128, and by how much.

@@ -116,15 +116,19 @@ proptest! {
         prop_assert!(pool.is_err() || pool.is_ok_and(|pool| pool.cells()[at] == 0.0));
     }
 
+    /// Scales of three bits, of weights of 50: their products are floats.
     #[test]
-    fn neither_order_nor_scale_of_the_weights_changes_a_bit((maps, weights) in hypotheses(occupancy()), turn in 0_usize..6, k in -40_i32..40) {
+    fn neither_order_nor_scale_of_the_weights_changes_a_bit(
+        (maps, weights) in hypotheses(occupancy()), turn in 0_usize..6, scale in prop::sample::select(vec![1, 3, 5, 7]), k in -40_i32..40,
+    ) {
+        let mut weights: Vec<f64> = weights.into_iter().map(|w| f64::from_bits(w.to_bits() & !7)).collect();
         let whole = expected(&maps, &weights);
         let turn = turn % maps.len();
-        let (mut maps, mut weights) = (maps, weights);
+        let mut maps = maps;
         maps.rotate_left(turn);
         weights.rotate_left(turn);
         for weight in &mut weights {
-            *weight *= power(k);
+            *weight *= f64::from(scale) * power(k);
         }
         prop_assert_eq!(whole, expected(&maps, &weights));
     }
@@ -226,6 +230,13 @@ fn a_cell_that_one_unlikely_particle_saw_is_observed() {
     assert_eq!(expected.grid().cells(), [0.5, 0.25]);
     assert_eq!((expected.tally().observed(), expected.tally().occupied()), (2, 1));
     assert_eq!(expected.tally().mean_information(), information(0.25) / 2.0);
+}
+
+/// One number, two fractions: in thirds and in ninths, whose long divisions differ by a bit.
+#[test]
+fn weights_in_other_units() {
+    let maps = [row(0.5, 0.0, &[0.1]), row(0.5, 0.0, &[0.2])];
+    assert_eq!(expected(&maps, &[1.0, 2.0]), expected(&maps, &[3.0, 6.0]));
 }
 
 #[test]

@@ -60,7 +60,7 @@ proptest! {
         prop_assert_eq!(big(&Natural::from([low, high])), BigUint::from(low) + (BigUint::from(high) << 128));
     }
 
-    /// Not above the quotient, and short of it by less than 2 units of 64 bits, of which one may have been shifted in.
+    /// Not above the quotient, and short of it by less than one unit of 63 bits, two of 64.
     #[test]
     fn the_leading_bits_are_cut_not_rounded(n in natural(), d in natural(), near in any::<bool>(), e in -900_i32..300) {
         prop_assume!(!n.is_zero() && !d.is_zero());
@@ -77,7 +77,15 @@ proptest! {
         let (whole, rest) = (&scaled / &divisor, &scaled % &divisor);
         prop_assert!(whole >= BigUint::from(m) && whole < BigUint::from(m) + 2_u32);
         prop_assert_eq!(sticky, whole != BigUint::from(m) || rest != BigUint::ZERO);
-        prop_assert!(m >> 63 == 1);
+        prop_assert!(m >> 63 == 1 && m & 1 == 0);
+    }
+
+    /// Of two fractions that are one number.
+    #[test]
+    fn the_leading_bits_are_those_of_the_number(n in natural(), d in natural(), k in natural(), e in -900_i32..300) {
+        prop_assume!(!d.is_zero() && !k.is_zero());
+        let parts = |n, d| leading(n, d, e).map(|(Leading { m, e }, sticky)| (m, e, sticky));
+        prop_assert_eq!(parts(&n, &d), parts(&n.times(&k), &d.times(&k)));
     }
 
     /// By a divisor of two limbs in 128 bits and limb by limb; where the estimate is too large, too.

@@ -60,13 +60,6 @@ pub enum Error {
         /// Rows.
         height: usize,
     },
-    /// Not one weight for each item.
-    WeightCount {
-        /// Weights given.
-        given: usize,
-        /// What they are for.
-        items: usize,
-    },
     /// More cells than the limit allows: to count them would not end, or to store them take too much memory.
     TooManyCells {
         /// What has the cells.
@@ -75,6 +68,13 @@ pub enum Error {
         count: f64,
         /// How many are allowed.
         limit: u64,
+    },
+    /// Not one weight for each item.
+    WeightCount {
+        /// Weights given.
+        given: usize,
+        /// What they are for.
+        items: usize,
     },
 }
 

@@ -14,7 +14,7 @@ use num_traits::{One, Zero};
 
 /// The limit of the mean information (bits per cell) as cells shrink, Eq. 6, by adaptive quadrature.
 ///
-/// The tolerances of `quadrature` are those of the deficit `1 - MI`, its evaluation limit that of all integrals together. What is
+/// The tolerances of `quadrature` are those of the deficit `1 - Ī`, its evaluation limit that of all integrals together. What is
 /// integrated is the entropy in the local coordinate `t` of each piece, with panels that shrink towards its start; so a peak of any
 /// relative width is seen. A piece whose range, an interval, shows that it matters less than the tolerance is left at that.
 ///

@@ -4,12 +4,12 @@
 //! With cells of side `h` and `x = L / h`, `L = z + σ √(ln 4)`, all of them are
 //!
 //! ```text
-//! |MI_h - MI| <= (S + MI M) / N,
+//! |Ī_h - Ī| <= (E_I + Ī E_N) / N,
 //! ```
 //!
-//! where `S` bounds the error of the sum of information, `M` that of the number of observed cells, both in cells, and `N` is
-//! that number or a lower bound of it. The proofs are the chapter [`convergence`](crate::book::convergence), whose symbols
-//! are used here. All arithmetic is rounded outwards, in `f64`.
+//! where `Ī_h` is the mean information of the grid and `Ī` its limit, `E_I` bounds the error of the sum of information, `E_N`
+//! that of the number of observed cells, and `N` is that number or a lower bound of it. The proofs are the chapter
+//! [`convergence`](crate::book::convergence), whose symbols are used here. All arithmetic is rounded outwards, in `f64`.
 
 use super::upwards::Up;
 use super::{Weight, closed_form};
@@ -23,21 +23,23 @@ use num_traits::float::FloatCore;
 const B: [f64; 2] = [1.177_410_022_515_474_7, 1.177_410_022_515_474_9];
 /// The floats below and above `π`.
 const PI: [f64; 2] = [core::f64::consts::PI, core::f64::consts::PI.next_up()];
-/// At least `max |φ'|`: the steepest information over `t`.
+/// At least `max |η'|`: the steepest information over `t`.
 const STEEPEST: Up = Up(1.32404);
-/// At least the total variation of `φ'`.
+/// At least `W`, the total variation of `η'`.
 const BEND: Up = Up(6.7619);
 
-/// The bound on `|MI_h - MI|` for the polar map of the circular room with rings of width `resolution` (metres) sampled at their
-/// centres, [`PolarRoom`](crate::build::PolarRoom); `MI` is the radial limit (Eq. 7). In bits per cell, at most 1.
+/// How far the mean information `Ī_h` of a polar map of the circular room is from its limit `Ī`, the radial one (Eq. 7), at
+/// most; in bits per cell, and not above 1. The map has rings of width `resolution`, `h` (metres), sampled at their centres:
+/// [`PolarRoom`](crate::build::PolarRoom).
 ///
 /// ```text
-/// (min(V (1/2 + δ), W h / (8 σ)) + MI (1/2 + δ + R)) / (L/h - 1/2 - δ - R)
+/// |Ī_h - Ī| <= (E_I + Ī (E_N + N_½)) / (x - E_N - N_½),
+/// E_N = 1/2 + w,  E_I = min(V E_N, W h / (8 σ)),  x = L/h
 /// ```
 ///
-/// with `V = f(0) + 2` if `z > σ √(ln 4)`, else `2 - f(0)`, where `f(0)` is the information at the sensor; `W = 6.7619`; `R` the
-/// number of rings whose centre falls on `ρ = z - σ √(ln 4)`, where `p = 1/2`: decided, mostly 0. `δ` and terms not shown are
-/// of the order of the rounding of the grid's cells in `T`; they are included.
+/// with `V = 2 + f(0)` if `z > σ √(ln 4)`, else `2 - f(0)`, where `f(0)` is the information at the sensor; `W = 6.7619`; `N_½`
+/// the number of rings whose centre falls on `ρ = z - σ √(ln 4)`, where `p = 1/2`: decided, mostly 0. `w` and terms not shown
+/// are of the order of the rounding of the grid's cells in `T`; they are included.
 ///
 /// Proved ([`convergence`](crate::book::convergence)), for every sensor and resolution; rounded up.
 ///
@@ -60,11 +62,13 @@ pub fn polar<T: Real>(sensor: &GaussianSensor<T>, resolution: T) -> Result<T, Er
     Ok(beam.before_counting(room.limit, room.rings_at_one_half()))
 }
 
-/// The bound on `|MI_h - MI|` for such a polar map with `observed` rings that are observed.
+/// The bound on `|Ī_h - Ī|` for such a polar map of which so many rings are observed, `N`.
 ///
 /// ```text
-/// (min(V (1/2 + δ), W h / (8 σ)) + MI |observed - L/h|) / observed
+/// |Ī_h - Ī| <= (E_I + Ī |N - x|) / N
 /// ```
+///
+/// with `E_I` and `x` as in [`polar`].
 ///
 /// Proved ([`convergence`](crate::book::convergence)), and rounded up.
 ///
@@ -90,19 +94,20 @@ pub fn polar_with_count<T: Real>(
     Ok(room.beam().with_count(room.limit, observed))
 }
 
-/// The bound on `|MI_h - MI|` for the Cartesian grid of the circular room with cells of side `resolution` (metres)
-/// sampled at their centres, [`CartesianRoom`](crate::build::CartesianRoom), wherever its cells lie; `MI` is the area
-/// limit. In bits per cell, at most 1.
+/// How far the mean information `Ī_h` of a Cartesian grid of the circular room is from its limit `Ī`, the area limit, at most;
+/// in bits per cell, and not above 1. Its cells are of side `resolution`, `h` (metres), sampled at their centres, wherever
+/// they lie: [`CartesianRoom`](crate::build::CartesianRoom).
 ///
 /// ```text
-/// (min(V (e + δ), 0.8403 (8.086 √x h/σ + 2 V / √x)) + MI (e + δ + R)) / (π x^2 - e - δ - R),
-/// e = min(2 x + 1.72 √x + 1, 7.14 x^(2/3) + 1/2 from x = 5 on),
-/// R = 6.31 r^(2/3) + 2, r = z/h - √(ln 4) σ/h
+/// |Ī_h - Ī| <= (E_I + Ī (E_N + N_½)) / (π x^2 - E_N - N_½),
+/// E_N = D + 7 x w,  D = min(2 x + 1.72 √x + 1, 7.14 x^(2/3) + 1/2 from x = 5 on),
+/// E_I = min(V E_N, 0.8403 (8.086 √x h/σ + 2 V / √x)),
+/// N_½ = 2 + 6.31 r^(2/3),  r = z/h - √(ln 4) σ/h
 /// ```
 ///
-/// with `x = L/h` and `V` and `δ` as in [`polar`]; `e` bounds the error of counting the cells in a disc, and `R` how
-/// many cell centres can lie on the circle of radius `r` cells where `p = 1/2`: 0 if `r < 0`, and `2 e + δ` where
-/// cells are so fine that rounding widens the circle.
+/// with `x`, `V` and `w` as in [`polar`]; `D` bounds the error of counting the cells in a disc, and `N_½` how many cell
+/// centres can lie on the circle of radius `r` cells where `p = 1/2`: 0 if `r < 0`, and `2 E_N` and some where cells are so
+/// fine that rounding widens the circle.
 ///
 /// So the error falls at least as `h^(4/3)`.
 ///
@@ -127,13 +132,13 @@ pub fn cartesian<T: Real>(sensor: &GaussianSensor<T>, resolution: T) -> Result<T
     Ok(disc.before_counting(room.limit, room.cells_at_one_half(disc.miscount)))
 }
 
-/// The bound on `|MI_h - MI|` for such a Cartesian grid with `observed` cells that are observed.
+/// The bound on `|Ī_h - Ī|` for such a Cartesian grid of which so many cells are observed, `N`.
 ///
 /// ```text
-/// (min(V (e + δ), 0.8403 (8.086 √x h/σ + 2 V / √x)) + MI |observed - π x^2|) / observed
+/// |Ī_h - Ī| <= (E_I + Ī |N - π x^2|) / N
 /// ```
 ///
-/// Nearly all of a grid's error is the second term: the sum of information is good to `h^(5/2)`.
+/// with `E_I` and `x` as in [`cartesian`]. Nearly all of a grid's error is the second term: the sum of information is good to `h^(5/2)`.
 ///
 /// Proved ([`convergence`](crate::book::convergence)), and rounded up.
 ///
@@ -168,7 +173,7 @@ struct Room {
     radius: [f64; 2],
     /// `V`.
     variation: Up,
-    /// `MI`, the limit.
+    /// `Ī`, the limit.
     limit: Up,
     /// `u = 2^-P`: numbers are rounded by at most so much of their value, occupancies by half of it.
     unit: Up,
@@ -180,9 +185,9 @@ struct Room {
 struct Observed {
     /// How many cells there would be if they were counted by length or area: below and above.
     size: [f64; 2],
-    /// By how much the count can differ from that.
+    /// `E_N`: by how much the count can differ from that.
     miscount: Up,
-    /// `S`: by how much the sum of information can.
+    /// `E_I`: by how much the sum of information can.
     information: Up,
 }
 
@@ -316,7 +321,7 @@ impl Observed {
         self.bound(limit, Up(miscount), count.next_down())
     }
 
-    /// `(S + MI miscount) / count` for a lower bound of the count; 1 where that says nothing.
+    /// `(E_I + Ī miscount) / count` for a lower bound of the count; 1 where that says nothing.
     fn bound<T: Real>(&self, limit: Up, miscount: Up, count: f64) -> T {
         if count <= 0.0 {
             return T::one();

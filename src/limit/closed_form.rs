@@ -1,8 +1,8 @@
 //! The limits in closed form (Eq. 7 and its counterpart by area), by piecewise polynomials in 64-bit integers.
 //!
 //! ```text
-//! radial = 1 - (A(b) + A(α)) / (α + b)                  α = z / σ,  b = √(ln 4),  h(t) = H(e^(-t^2/2))
-//! area   = 1 - 2 (α A(b) + B + C(α)) / (α + b)^2        A(a) = int_0^a h(t) dt,  C(a) = int_0^a A(t) dt,  B = int_0^b t h(t) dt
+//! radial = 1 - (A(b) + A(α)) / (α + b)                  α = z / σ,  b = √(ln 4),  η(t) = H(e^(-t^2/2))
+//! area   = 1 - 2 (α A(b) + B + C(α)) / (α + b)^2        A(a) = int_0^a η(t) dt,  C(a) = int_0^a A(t) dt,  B = int_0^b t η(t) dt
 //! ```
 //!
 //! Both depend on `α` alone, and each is one polynomial on each of 233 panels ([`locate`]). The chapter

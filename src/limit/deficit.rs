@@ -1,11 +1,11 @@
 //! The integrals of Eq. 6: what the observed points lack of one bit each, and how much of the beam they are.
 //!
 //! ```text
-//! 1 - MI = sum over pieces of ∫ H(p) w dt  /  sum over pieces of ∫ w dt,    w = 1 (radial), w = ρ (area)
+//! 1 - Ī = sum over pieces of ∫ H(p) g dt  /  sum over pieces of ∫ g dt,    g = 1 (radial), g = ρ (area)
 //! ```
 //!
-//! The deficit `H = 1 - I` rather than `I`: it is small where little is uncertain, and so are its errors. Distances are taken in
-//! units of `z + σ`, so that `w` neither overflows nor vanishes.
+//! The deficit `1 - Ī` rather than the mean information `Ī`: it is small where little is uncertain, and so are its errors. Distances are taken in
+//! units of `z + σ`, so that `g` neither overflows nor vanishes.
 
 use super::Weight;
 use super::model::{Piece, RadialModel};
@@ -15,7 +15,7 @@ use crate::scalar::{Integrand, Scalar};
 use num_traits::Zero;
 use num_traits::float::FloatCore;
 
-/// `H(p) w` along one piece of a model; of a mirrored one, what both of its stretches have at `t` and `-t`.
+/// `H(p) g` along one piece of a model; of a mirrored one, what both of its stretches have at `t` and `-t`.
 pub(super) struct Deficit<'a, M> {
     pub(super) model: &'a M,
     pub(super) weight: Weight,
@@ -33,7 +33,7 @@ impl<M: RadialModel> Integrand for Deficit<'_, M> {
     }
 }
 
-/// `w` at `t`, in units of `z + σ` by area; mirrored `w(t) + w(-t)`, which is `2 w(0)`, as `w` is linear.
+/// `g` at `t`, in units of `z + σ` by area; mirrored `g(t) + g(-t)`, which is `2 g(0)`, as `g` is linear.
 fn density<M: RadialModel, S: Scalar>(model: &M, weight: Weight, mirrored: bool, t: S) -> S {
     let distance = |t: S| {
         let ratio = S::constant(model.origin().widen()) / S::constant(model.scale().widen());
@@ -47,7 +47,7 @@ fn density<M: RadialModel, S: Scalar>(model: &M, weight: Weight, mirrored: bool,
     }
 }
 
-/// `∫ w dt` over a piece, without its sign: the length, times `w` in the middle.
+/// `∫ g dt` over a piece, without its sign: the length, times `g` in the middle.
 pub(super) fn extent<M: RadialModel, S: Scalar>(model: &M, weight: Weight, piece: &Piece<S>) -> S {
     let middle = piece.start.clone() + S::constant(0.5) * piece.length.clone();
     piece.length.clone() * density(model, weight, piece.mirrored, middle)

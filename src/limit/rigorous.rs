@@ -14,7 +14,7 @@ use num_traits::{One, Zero};
 
 /// The limit of the mean information (bits per cell) as cells shrink, Eq. 6, between two floats.
 ///
-/// The tolerances of `quadrature` are those of the deficit `1 - MI`, though no finer than a 64th of the spacing of floats at 1; its
+/// The tolerances of `quadrature` are those of the deficit `1 - Ī`, though no finer than a 64th of the spacing of floats at 1; its
 /// evaluation limit is that of each piece.
 ///
 /// **Error**: none; the true value lies in the enclosure, whatever the status (proved:

@@ -47,7 +47,7 @@ fn a_circle_holds_no_more_points_than_the_bound() {
 
 #[test]
 fn the_steepest_information_and_its_bend() {
-    // φ' = t p log2(p / (1 - p)): its three extremes, and 0 between them.
+    // η' = t p log2(p / (1 - p)): its three extremes, and 0 between them.
     let slope = |t: f64| {
         let p = exp(-t * t / 2.0);
         t * p * (ln(p) - ln(1.0 - p)) / core::f64::consts::LN_2

@@ -290,11 +290,72 @@ fn nothing_observed_and_nothing_but_certainties() {
         (&found["emmi"], &found["particles"][0], &found["observed"]),
         (&Value::Null, &Value::Null, &Value::from(0))
     );
-    assert_eq!(found["meaningful"], false);
-    assert!(stdout(&with(&arguments, &[])).contains("nothing observed"));
+    assert_eq!((&found["meaningful"], &found["mean_of_particles"]), (&Value::from(false), &Value::Null));
+    let reason = "nothing observed: every cell is unknown, so there is no mean information";
+    assert_eq!(found["warnings"], Value::from(vec![reason]));
+    let table = stdout(&with(&arguments, &[]));
+    assert!(table.contains("not meaningful:") && table.ends_with(&format!("p.npy: {reason}\n")), "{table}");
+    assert_eq!((table.matches("none").count(), table.contains(" 0.0 ")), (5, false), "{table}");
     fs::write(folder.path("p.npy"), npy("|i1", false, &[3, 1, 2], &[0, 100, 0, 100, 0, 100])).unwrap();
     let found = json(&with(&arguments, &["--format", "json"]));
     assert_eq!((&found["emmi"], &found["meaningful"]), (&Value::from(1.0), &Value::from(false)));
+}
+
+/// It counts as 0 in the mean of those that have something, which is said; without weight it does not count.
+#[test]
+fn a_particle_in_which_nothing_is_observed() {
+    let folder = Folder::new();
+    let of = |particles: &[f64], weights: &[f64]| {
+        let arguments = small(&folder, weights);
+        let shape = [weights.len(), 1, 2];
+        fs::write(folder.path("p.npy"), npy("<f8", false, &shape, &doubles(particles))).unwrap();
+        let found = json(&with(&arguments, &["--format", "json"]));
+        (found["mean_of_particles"].as_f64(), found["warnings"].as_array().unwrap().clone())
+    };
+    let mean = (1.0 - entropy(0.25)) / 2.0;
+    let warning = "1 particle with nothing observed, 0 in the mean of particles";
+    let (found, warnings) = of(&[0.25, 0.5, 0.5, 0.5], &[0.75, 0.75]);
+    assert!((found.unwrap() - mean).abs() < 1e-15);
+    assert_eq!(warnings, [warning]);
+    let (found, warnings) = of(&[0.25, 0.5, 0.5, 0.5, 0.5, 0.5], &[1.5, 0.75, 0.75]);
+    assert!((found.unwrap() - mean).abs() < 1e-15);
+    assert_eq!(warnings, [warning.replace("1 particle", "2 particles")]);
+    assert_eq!(of(&[0.25, 0.5, 0.5, 0.5], &[0.75, 0.0]).1, [""; 0]);
+    let (found, warnings) = of(&[0.25, 0.5, 0.5, 0.5], &[0.0, 0.75]);
+    assert_eq!((found, warnings.len()), (None, 1));
+    // Their mean is unknown, they are not.
+    let (found, warnings) = of(&[0.25, 0.5, 0.75, 0.5], &[0.75, 0.75]);
+    assert!((found.unwrap() - 2.0 * mean).abs() < 1e-15);
+    assert!(warnings.len() == 1 && warnings[0].as_str().unwrap().starts_with("nothing observed"));
+}
+
+#[test]
+fn weights_may_be_integers() {
+    let folder = Folder::new();
+    let expected = json(&with(&small(&folder, &[3.0, 1.0, 2.0]), &["--format", "json"]));
+    let read = |descr: &str, bytes: &[Vec<u8>]| {
+        let arguments = small(&folder, &WEIGHTS);
+        fs::write(folder.path("w.npy"), npy(descr, false, &[bytes.len()], &bytes.concat())).unwrap();
+        json(&with(&arguments, &["--format", "json"]))
+    };
+    for (descr, bytes, scale) in [
+        ("|i1", 1, 41),
+        ("<i1", 1, 41),
+        ("|u1", 1, 81),
+        ("<i2", 2, 10_000),
+        ("<u2", 2, 20_000),
+        ("<i4", 4, 700_000_000),
+        ("<u4", 4, 1_400_000_000),
+        ("<i8", 8, 3_000_000_000_000_000),
+        ("<u8", 8, 3_000_000_000_000_000),
+    ] {
+        let weights = [3, 1, 2].map(|weight: u64| (weight * scale).to_le_bytes()[..bytes].to_vec());
+        assert_eq!(read(descr, &weights)["emmi"], expected["emmi"], "{descr}");
+        let reversed = weights.map(|weight| weight.into_iter().rev().collect::<Vec<u8>>());
+        if bytes > 1 {
+            assert_eq!(read(&descr.replace('<', ">"), &reversed)["emmi"], expected["emmi"], "{descr}");
+        }
+    }
 }
 
 #[test]
@@ -323,10 +384,24 @@ fn what_cannot_be_read_is_refused_and_nothing_written() {
         refused(stack(), npy("<f8", false, &[1, 3], &doubles(&WEIGHTS)), &[]),
         &["2 dimensions (1 x 3)", "the weights"],
     );
-    for (descr, bytes) in [("|i1", 1), ("<i8", 8)] {
+    for (descr, bytes) in [("<f2", 2), ("|b1", 1), ("<c16", 16), ("<i16", 16), ("|i8", 8), ("", 8), ("é8", 8)]
+    {
         let line = refused(stack(), npy(descr, false, &[3], &vec![1; 3 * bytes]), &[]);
-        says(line, &["w.npy", "for weights are float32 (f4) and float64 (f8)"]);
+        says(line, &["w.npy", "for weights are float32 (f4), float64 (f8) and integers"]);
     }
+    let integers = |w: [i64; 3]| npy("<i8", false, &[3], &w.map(i64::to_le_bytes).concat());
+    says(refused(stack(), integers([3, -1, 2]), &[]), &["w.npy", "weight 1 is -1"]);
+    says(refused(stack(), integers([0; 3]), &[]), &["w.npy", "sum of the weights is 0"]);
+    for (large, words) in [
+        ((1 << 53) + 1, "weight 2 is 9007199254740993, allowed are integers up to 2^53 = 9007199254740992"),
+        (i64::MIN, "weight 2 is -9223372036854775808"),
+    ] {
+        says(refused(stack(), integers([1 << 53, 1, large]), &[]), &["w.npy", words]);
+    }
+    let unsigned = npy("<u8", false, &[3], &[u64::MAX; 3].map(u64::to_le_bytes).concat());
+    says(refused(stack(), unsigned, &[]), &["weight 0 is 18446744073709551615"]);
+    let line = refused(stack(), weights(&WEIGHTS), &["--max-cells", "2"]);
+    says(line, &["w.npy: claims 3 weights, more than the limit of 2;"]);
     says(refused(stack(), npy("<f8", false, &[4], &doubles(&WEIGHTS)), &[]), &["w.npy", "its header claims"]);
 
     let flat = npy("<f8", false, &[3, 8], &doubles(&PARTICLES.concat()));
@@ -343,7 +418,10 @@ fn what_cannot_be_read_is_refused_and_nothing_written() {
     let bad = npy("<f8", false, &[3, 2, 4], &doubles(&bad));
     says(refused(bad, weights(&WEIGHTS), &[]), &["p.npy", "particle 1: cell at row 1, column 3 is 1.5"]);
     says(refused(stack(), weights(&WEIGHTS), &["--encoding", "mrpt"]), &["p.npy", "mrpt needs int8"]);
-    says(refused(stack(), weights(&WEIGHTS), &["--max-cells", "23"]), &["= 24 cells", "limit of 23"]);
+    says(
+        refused(stack(), weights(&WEIGHTS), &["--max-cells", "23"]),
+        &["p.npy: claims 3 particles of 4 x 2 cells, together more than the limit of 23; raise it"],
+    );
     for resolution in ["0", "-1"] {
         says(refused(stack(), weights(&WEIGHTS), &["--resolution", resolution]), &[resolution, "positive"]);
     }

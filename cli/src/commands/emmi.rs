@@ -20,7 +20,7 @@ pub struct Arguments {
     /// The particles' maps: an .npy array of three dimensions, particle, row and column.
     #[arg(long, value_name = "FILE.npy")]
     particles: PathBuf,
-    /// Their weights: an .npy list of floats, not negative and not all 0; they need not add up to 1.
+    /// Their weights: an .npy list of floats or integers, not negative and not all 0; they need not add up to 1.
     #[arg(long, value_name = "FILE.npy")]
     weights: PathBuf,
     /// What the numbers of the maps are; if absent, floats are probabilities and int8 are percentages.
@@ -64,7 +64,10 @@ impl Arguments {
 struct Expected {
     /// Of the expected map.
     measures: Measures,
-    mean_of_particles: Number,
+    /// `None` if nothing is observed in any particle of a weight above 0.
+    mean_of_particles: Option<Number>,
+    /// How many others of a weight above 0 there are in which nothing is observed.
+    unobserved: usize,
     particles: Vec<Measures>,
 }
 
@@ -91,11 +94,15 @@ impl WithMaps for Expecting<'_> {
             particles.push(Measures::of_grid(map));
             progress.done();
         }
-        // A map in which nothing is observed has mean information 0. The numbers are of the maps' own precision.
+        // Where others have some, a map in which nothing is observed has mean information 0. The numbers are of the maps'
+        // own precision.
         let own = |m: &Measures| E::Float::nearest(m.mean_information.map_or(0.0, Number::widen));
         let values: Vec<E::Float> = particles.iter().map(own).collect();
-        let mean_of_particles = Number::new(weighted_mean(self.weights, &values)?);
-        Ok(Expected { measures, mean_of_particles, particles })
+        let mean = Number::new(weighted_mean(self.weights, &values)?);
+        let counted = || particles.iter().zip(self.weights).filter(|&(_, &weight)| weight > 0.0);
+        let unobserved = counted().filter(|(m, _)| m.mean_information.is_none()).count();
+        let mean_of_particles = (unobserved < counted().count()).then_some(mean);
+        Ok(Expected { measures, mean_of_particles, unobserved, particles })
     }
 }
 
@@ -109,7 +116,13 @@ struct Emmi {
 
 impl Emmi {
     fn warnings(&self) -> Vec<String> {
-        self.expected.measures.doubt.map(|doubt| doubt.warning().to_owned()).into_iter().collect()
+        let Expected { measures, mean_of_particles, unobserved, .. } = &self.expected;
+        let doubt = measures.doubt.map(|doubt| doubt.warning().to_owned());
+        let zeros = (*unobserved > 0 && mean_of_particles.is_some()).then(|| {
+            let particles = if *unobserved == 1 { "particle" } else { "particles" };
+            format!("{unobserved} {particles} with nothing observed, 0 in the mean of particles")
+        });
+        doubt.into_iter().chain(zeros).collect()
     }
 
     fn observed_area(&self) -> Option<f64> {
@@ -118,13 +131,13 @@ impl Emmi {
     }
 
     fn record(&self) -> Record {
-        let Expected { measures, mean_of_particles, particles } = &self.expected;
+        let Expected { measures, mean_of_particles, particles, .. } = &self.expected;
         Record(vec![
             ("emmi", Value::Computed(measures.mean_information)),
             ("observed", Value::Count(measures.observed())),
             ("information_bits", Value::Computed(Some(measures.information))),
             ("entropy_bits", Value::Computed(Some(measures.entropy))),
-            ("mean_of_particles", Value::Computed(Some(*mean_of_particles))),
+            ("mean_of_particles", Value::Computed(*mean_of_particles)),
             ("particles", Value::Numbers(particles.iter().map(|m| m.mean_information).collect())),
             ("observed_area_m2", Value::Computed(self.observed_area().map(Number::Double))),
             ("meaningful", Value::Flag(measures.doubt.is_none())),
@@ -150,11 +163,14 @@ impl Report for Emmi {
         };
         let area = self.observed_area().map(|area| format!("\n{} m²", short(area)));
         let mut expected = row("expected map".to_owned(), String::new(), &self.expected.measures);
+        let doubt = self.expected.measures.doubt;
+        expected[2] +=
+            &doubt.map(|doubt| format!("\nnot meaningful:\n{}", doubt.reason())).unwrap_or_default();
         expected[5] += &area.unwrap_or_default();
         let mean = [
             "mean of particles".to_owned(),
             String::new(),
-            self.expected.mean_of_particles.to_string(),
+            number(self.expected.mean_of_particles),
             String::new(),
             String::new(),
             String::new(),

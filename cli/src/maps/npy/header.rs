@@ -8,17 +8,32 @@ use std::io::Read;
 /// The most bytes of a header; numpy itself reads headers up to 10 000.
 const MOST_BYTES: u32 = 64 << 10;
 
-/// What maps may hold, in words.
-pub(super) const MAPS: &str = "are float32 (f4), float64 (f8) and int8 (i1)";
-/// What weights may hold.
-pub(super) const WEIGHTS: &str = "for weights are float32 (f4) and float64 (f8)";
+/// What an array may hold.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Allowed {
+    words: &'static str,
+    /// Also integers other than int8.
+    integers: bool,
+}
 
-/// The elements that maps are stored in.
+/// What maps may hold.
+pub(super) const MAPS: Allowed =
+    Allowed { words: "are float32 (f4), float64 (f8) and int8 (i1)", integers: false };
+/// What weights may hold.
+pub(super) const WEIGHTS: Allowed =
+    Allowed { words: "for weights are float32 (f4), float64 (f8) and integers", integers: true };
+
+/// The elements that maps and weights are stored in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Element {
     Float32,
     Float64,
     Int8,
+    /// Other integers.
+    Integer {
+        bytes: usize,
+        signed: bool,
+    },
 }
 
 impl Element {
@@ -27,6 +42,7 @@ impl Element {
             Self::Int8 => 1,
             Self::Float32 => 4,
             Self::Float64 => 8,
+            Self::Integer { bytes, .. } => bytes,
         }
     }
 
@@ -35,6 +51,25 @@ impl Element {
             Self::Int8 => "int8",
             Self::Float32 => "float32",
             Self::Float64 => "float64",
+            Self::Integer { .. } => "integers",
+        }
+    }
+
+    fn of(descr: &str, allowed: Allowed) -> Option<Self> {
+        let integer = |bytes, signed| allowed.integers.then_some(Self::Integer { bytes, signed });
+        let (order, name) = descr.split_at_checked(1)?;
+        match (order, name) {
+            ("<" | ">", "f4") => Some(Self::Float32),
+            ("<" | ">", "f8") => Some(Self::Float64),
+            ("<" | ">" | "|", "i1") => Some(Self::Int8),
+            ("<" | ">" | "|", "u1") => integer(1, false),
+            ("<" | ">", "i2") => integer(2, true),
+            ("<" | ">", "u2") => integer(2, false),
+            ("<" | ">", "i4") => integer(4, true),
+            ("<" | ">", "u4") => integer(4, false),
+            ("<" | ">", "i8") => integer(8, true),
+            ("<" | ">", "u8") => integer(8, false),
+            _ => None,
         }
     }
 }
@@ -52,8 +87,8 @@ pub(super) struct Header {
 }
 
 impl Header {
-    /// Reads it; of elements, `allowed` says in words which are.
-    pub(super) fn read(mut input: impl Read, allowed: &str) -> Result<Self, Fault> {
+    /// Reads it; of elements, some are `allowed`.
+    pub(super) fn read(mut input: impl Read, allowed: Allowed) -> Result<Self, Fault> {
         let mut start = Vec::new();
         input.by_ref().take(8).read_to_end(&mut start)?;
         let [0x93, b'N', b'U', b'M', b'P', b'Y', major, _] = start[..] else {
@@ -83,7 +118,7 @@ impl Header {
         Self::parse(text, u64::from(length) + prefix, allowed)
     }
 
-    fn parse(text: &str, length: u64, allowed: &str) -> Result<Self, Fault> {
+    fn parse(text: &str, length: u64, allowed: Allowed) -> Result<Self, Fault> {
         let mut rest = Rest(text);
         let (mut descr, mut fortran_order, mut shape) = (None, None, None);
         rest.expect("{")?;
@@ -143,22 +178,17 @@ fn malformed(allowed: &str) -> Fault {
 }
 
 /// The element of a type string, and whether its bytes run from the high one.
-fn element(descr: &str, allowed: &str) -> Result<(Element, bool), Fault> {
-    let found = match descr {
-        "<f4" | ">f4" => Element::Float32,
-        "<f8" | ">f8" => Element::Float64,
-        "|i1" | "<i1" | ">i1" => Element::Int8,
-        _ => {
-            let what = match descr.trim_start_matches(['<', '>', '|', '=']).chars().next() {
-                Some('O') => "Python objects",
-                Some('c') => "complex numbers",
-                Some('V') => "records",
-                Some('i' | 'u') => "integers other than int8",
-                Some('f') => "floats other than float32 and float64",
-                _ => "no numbers",
-            };
-            return Err(Fault::new(format!("holds {what} ({descr:?}); allowed {allowed}")));
-        }
+fn element(descr: &str, allowed: Allowed) -> Result<(Element, bool), Fault> {
+    let Some(found) = Element::of(descr, allowed) else {
+        let what = match descr.trim_start_matches(['<', '>', '|', '=']).chars().next() {
+            Some('O') => "Python objects",
+            Some('c') => "complex numbers",
+            Some('V') => "records",
+            Some('i' | 'u') => "integers other than int8",
+            Some('f') => "floats other than float32 and float64",
+            _ => "no numbers",
+        };
+        return Err(Fault::new(format!("holds {what} ({descr:?}); allowed {}", allowed.words)));
     };
     Ok((found, descr.starts_with('>')))
 }

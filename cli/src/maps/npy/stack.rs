@@ -8,6 +8,9 @@ use mean_information::map::encoding::{LogOdds, MrptLogOdds, Percent, Probability
 use mean_information::map::{Geometry, Grid};
 use std::io::Read;
 
+/// All integers up to this one are floats.
+const MOST_INTEGER: u128 = 1 << f64::MANTISSA_DIGITS;
+
 /// What is done with the maps of an array, whatever their encoding.
 pub trait WithMaps {
     /// What comes of it.
@@ -38,24 +41,32 @@ pub fn read_stack<W: WithMaps>(
     with_maps(input, length, &header, shape, options, what)
 }
 
-/// Reads a list of floats from a file of `length` bytes.
+/// Reads a list of weights from a file of `length` bytes.
 ///
 /// # Errors
-/// A [`Fault`] if this is no `.npy` file, holds anything but a list of float32 or float64, or is not exactly as long
-/// as its header says.
+/// A [`Fault`] if this is no `.npy` file, holds anything but a list of float32, float64 or integers, has an integer that
+/// `f64` may not hold, or is not exactly as long as its header says.
 pub fn read_weights(mut input: impl Read, length: u64, options: &Options) -> Result<Vec<f64>, Fault> {
     let header = Header::read(&mut input, header::WEIGHTS)?;
     let [count] = header.dimensions("the weights")?;
-    let size = Size::within(count, 1, options.max_kept())?;
+    let size = Size::claimed(count, 1, options.max_kept(), || format!("{count} weights,"))?;
     header.check_length(length, count)?;
+    let count = size.cells();
     let mut values = Values { input, header: &header };
     match header.element {
         Element::Float32 => {
-            let weights = values.take::<f32, 4>(size.cells(), f32::from_le_bytes)?;
+            let weights = values.take::<f32, 4>(count, f32::from_le_bytes)?;
             Ok(weights.into_iter().map(f64::from).collect())
         }
-        Element::Float64 => values.take::<f64, 8>(size.cells(), f64::from_le_bytes),
-        Element::Int8 => Err(Fault::new(format!("holds int8; allowed {}", header::WEIGHTS))),
+        Element::Float64 => values.take::<f64, 8>(count, f64::from_le_bytes),
+        Element::Int8 => values.integers(count, i8::from_le_bytes),
+        Element::Integer { bytes: 1, .. } => values.integers(count, u8::from_le_bytes),
+        Element::Integer { bytes: 2, signed: true } => values.integers(count, i16::from_le_bytes),
+        Element::Integer { bytes: 2, .. } => values.integers(count, u16::from_le_bytes),
+        Element::Integer { bytes: 4, signed: true } => values.integers(count, i32::from_le_bytes),
+        Element::Integer { bytes: 4, .. } => values.integers(count, u32::from_le_bytes),
+        Element::Integer { signed: true, .. } => values.integers(count, i64::from_le_bytes),
+        Element::Integer { .. } => values.integers(count, u64::from_le_bytes),
     }
 }
 
@@ -79,7 +90,7 @@ pub(super) fn with_maps<W: WithMaps>(
     let mut maps = Maps { values: Values { input, header }, size, count: count as usize, geometry };
     let encoding = options.encoding.unwrap_or(match header.element {
         Element::Int8 => ArrayEncoding::Percent,
-        Element::Float32 | Element::Float64 => ArrayEncoding::Probability,
+        _ => ArrayEncoding::Probability,
     });
     Ok(match (encoding, header.element) {
         (ArrayEncoding::Probability, Element::Float32) => {
@@ -134,6 +145,26 @@ impl<R: Read> Values<'_, R> {
             Ok(())
         })?;
         Ok(values)
+    }
+
+    /// The next so many integers, exactly.
+    fn integers<S: Into<i128>, const N: usize>(
+        &mut self,
+        count: usize,
+        of: fn([u8; N]) -> S,
+    ) -> Result<Vec<f64>, Fault> {
+        let mut exact = Vec::new();
+        reserve(&mut exact, count, count)?;
+        for (index, value) in self.take(count, of)?.into_iter().enumerate() {
+            let value: i128 = value.into();
+            if value.unsigned_abs() > MOST_INTEGER {
+                return Err(Fault::new(format!(
+                    "weight {index} is {value}, allowed are integers up to 2^53 = {MOST_INTEGER}"
+                )));
+            }
+            exact.push(value as f64);
+        }
+        Ok(exact)
     }
 }
 

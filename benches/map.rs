@@ -5,6 +5,7 @@
 #![allow(missing_docs)]
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use mean_information::map::Histogram;
 use mean_information::map::encoding::{Encoding, LogOdds, MrptLogOdds, Percent, Probability};
 use mean_information::{Real, Tally};
 use std::hint::black_box;
@@ -86,14 +87,37 @@ fn stored_bytes(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// Of a sensor of three steps, where scans add up to few values; and of Eq. 5, where hardly one occurs again.
+/// Pieces of a map as they are read: rows of a narrow one are short.
+fn pieces(criterion: &mut Criterion) {
+    let maps = [("mixed", bytes(|_| true)), ("trinary", trinary())];
+    for (name, cells) in maps {
+        let mut group = criterion.benchmark_group(format!("bytes in pieces, {name}"));
+        group.throughput(Throughput::Elements(COUNT as u64));
+        for piece in [8, 64, 200, 1000, 4000, 65536] {
+            let count = || {
+                let mut histogram = Histogram::new();
+                black_box(&cells).chunks(piece).for_each(|piece| histogram.add_cells(piece));
+                histogram
+            };
+            assert_eq!(count(), Histogram::from_cells(&cells));
+            group.bench_function(BenchmarkId::from_parameter(piece), |bencher| bencher.iter(count));
+        }
+        group.finish();
+    }
+}
+
+/// Of a sensor of three steps, where scans add up to few values; of more than there are slots for; and of Eq. 5, where
+/// hardly one occurs again.
 fn log_odds(criterion: &mut Criterion) {
     let counts = bytes(|_| true).into_iter().map(|byte| (f64::from(byte & 3), f64::from(byte >> 4 & 7)));
     let steps: Vec<f64> = counts.map(|(hits, misses)| 0.85 * hits - 0.4 * misses).collect();
     encoding::<LogOdds<f64>>(criterion, "log-odds, few values", &steps);
+    let cells = occupancies::<f64>().into_iter();
+    let many: Vec<f64> = cells.map(|p| 12.0 * (p * 8000.0).floor() / 8000.0 - 6.0).collect();
+    encoding::<LogOdds<f64>>(criterion, "log-odds, 8000 values", &many);
     let all: Vec<f64> = occupancies::<f64>().into_iter().map(|p| 12.0 * p - 6.0).collect();
     encoding::<LogOdds<f64>>(criterion, "log-odds, all different", &all);
 }
 
-criterion_group!(benches, floats, stored_bytes, log_odds);
+criterion_group!(benches, floats, stored_bytes, pieces, log_odds);
 criterion_main!(benches);

@@ -1,9 +1,10 @@
 //! `docs/architecture.md`: the tree is there, dependencies run one way, files are small.
 
-use crate::{ROOT, read, rows, sources};
+use crate::markdown::{rows, spans};
+use crate::{ROOT, read, sources};
 use std::collections::BTreeSet;
-use std::fs;
 use std::path::Path;
+use std::process::Command;
 
 /// Tables that a generator wrote.
 const LONG: [&str; 2] = ["src/rounded/constants.rs", "src/limit/closed_form/tables.rs"];
@@ -14,19 +15,39 @@ fn the_tree_is_the_tree() {
     let (_, tree) = page.split_once("```text\n").unwrap();
     let (tree, _) = tree.split_once("```").unwrap();
     let shown: BTreeSet<_> = tree.lines().map(|line| line.split_once('/').unwrap().0).collect();
-    let is_folder = |name: &&str| Path::new(ROOT).join(name).is_dir();
-    // The package of the library is a part of the tree.
-    if is_folder(&"cli") {
-        let made = ["target", ".git"];
-        let there = fs::read_dir(ROOT).unwrap().map(|entry| entry.unwrap());
-        let there = there.filter(|entry| entry.file_type().unwrap().is_dir());
-        let there: Vec<_> = there.map(|entry| entry.file_name().into_string().unwrap()).collect();
-        let there: BTreeSet<_> =
-            there.iter().map(String::as_str).filter(|name| !made.contains(name)).collect();
-        assert_eq!(shown, there);
+    if let Some(there) = versioned_folders() {
+        assert_eq!(shown, there.iter().map(String::as_str).collect());
     } else {
-        assert!(shown.iter().filter(|name| is_folder(name)).count() > 6);
+        // The package of the library is a part of the tree.
+        assert!(shown.iter().filter(|name| Path::new(ROOT).join(name).is_dir()).count() > 6);
     }
+}
+
+/// The folders of the root that hold versioned files, where there is a checkout and git to ask.
+fn versioned_folders() -> Option<BTreeSet<String>> {
+    if !Path::new(ROOT).join(".git").exists() {
+        return None;
+    }
+    let output = Command::new("git").args(["-C", ROOT, "ls-files"]).output().ok()?;
+    let files = String::from_utf8(output.stdout).ok().filter(|_| output.status.success())?;
+    Some(files.lines().filter_map(|file| Some(file.split_once('/')?.0.to_owned())).collect())
+}
+
+/// The crate page's table has the public modules.
+#[test]
+fn the_crate_page_shows_the_public_modules() {
+    let source = read("src/lib.rs");
+    let page: Vec<_> = source.lines().filter_map(|line| line.strip_prefix("//! ")).collect();
+    let page = page.join("\n");
+    let shown: Vec<_> = rows(&page).iter().map(|row| spans(row[0]).next().unwrap()).collect();
+    let public = source.split("#[cfg(feature = \"vectors\")]").next().unwrap().lines();
+    let public = public.filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';'));
+    assert_eq!(shown.iter().copied().collect::<BTreeSet<_>>(), public.collect());
+    assert!(
+        rows(&page)
+            .iter()
+            .all(|row| row[0] == format!("[`{}`]", spans(row[0]).next().unwrap()) && !row[1].is_empty())
+    );
 }
 
 #[test]
@@ -62,36 +83,80 @@ fn one_way(folder: &str, order: &[String]) {
     let mut checked = 0;
     for file in sources(folder) {
         let within = file.strip_prefix(folder).unwrap().with_extension("");
-        let module = within.iter().next().unwrap().to_str().unwrap();
-        let test = within.iter().any(|part| part == "tests");
-        if ["lib", "main"].contains(&module) || test {
+        let own: Vec<_> =
+            within.iter().map(|part| part.to_str().unwrap()).filter(|&part| part != "mod").collect();
+        if ["lib", "main"].contains(&own[0]) || own.contains(&"tests") {
             continue;
         }
-        let own = rank(module).unwrap();
+        let rank_of_own = rank(own[0]).unwrap();
         let text = read(&file);
-        let code = text.lines().filter(|line| !line.trim_start().starts_with("//"));
-        let code = code.collect::<Vec<_>>().join("\n");
-        // Tests stand at the end of a file.
-        let code = code.split("#[cfg(test)]\nmod tests {").next().unwrap();
-        for name in used(code) {
+        for name in used(&without_tests(&text), &own) {
             let other = rank(name).unwrap_or_else(|| panic!("{}: crate::{name}", file.display()));
-            assert!(other <= own, "{} uses {name}, which stands below it", file.display());
-            checked += usize::from(other < own);
+            assert!(other <= rank_of_own, "{} uses {name}, which stands below it", file.display());
+            checked += usize::from(other < rank_of_own);
         }
     }
     assert!(checked > 20, "{checked}");
 }
 
-/// The modules that follow `crate::` in code; of a group, each.
-fn used(code: &str) -> impl Iterator<Item = &str> {
-    let names = code.split("crate::").skip(1).flat_map(|rest| match rest.strip_prefix('{') {
-        Some(group) => group.split('}').next().unwrap().split(',').map(str::trim).collect(),
-        None => vec![rest],
-    });
-    names.filter(|name| !name.is_empty()).map(|path| {
-        let end = path.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(path.len());
-        home(&path[..end])
-    })
+/// Code without comments and without modules of tests.
+fn without_tests(text: &str) -> String {
+    let mut code = String::new();
+    let mut lines = text.lines().filter(|line| !line.trim_start().starts_with("//"));
+    while let Some(line) = lines.next() {
+        if line == "mod tests {" {
+            lines.find(|line| *line == "}");
+        } else {
+            code.extend([line, "\n"]);
+        }
+    }
+    code
+}
+
+/// The modules at the root of the crate that the code of a module uses, by `crate::` or by enough of `super::`.
+fn used<'a>(code: &'a str, own: &[&str]) -> Vec<&'a str> {
+    let begins = |&(at, _): &(usize, &str)| {
+        !code[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_') && !code[..at].ends_with("super::")
+    };
+    let starts = code.match_indices("crate::").chain(code.match_indices("super::")).filter(begins);
+    let from_root = |path: Vec<&'a str>| {
+        let above = path.iter().take_while(|&&part| part == "super").count();
+        let at_root = path[0] == "crate" || above >= own.len();
+        at_root.then(|| path[above.max(1)])
+    };
+    starts.flat_map(|(at, _)| paths(&code[at..])).filter_map(from_root).map(home).collect()
+}
+
+/// The paths that begin here, one for each member of a group.
+fn paths(text: &str) -> Vec<Vec<&str>> {
+    if let Some(group) = text.strip_prefix('{') {
+        return members(group).into_iter().flat_map(paths).collect();
+    }
+    let (name, rest) =
+        text.split_at(text.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(text.len()));
+    let ends = rest.strip_prefix("::").map_or(vec![Vec::new()], paths);
+    ends.into_iter().map(|end| [vec![name], end].concat()).collect()
+}
+
+/// The members of a group, up to the brace that ends it.
+fn members(group: &str) -> Vec<&str> {
+    let (mut members, mut depth, mut start) = (Vec::new(), 0, 0);
+    for (at, c) in group.char_indices() {
+        match c {
+            '{' => depth += 1,
+            '}' if depth > 0 => depth -= 1,
+            ',' | '}' if depth == 0 => {
+                members.push(group[start..at].trim());
+                start = at + 1;
+                if c == '}' {
+                    break;
+                }
+            }
+            _ => {}
+        }
+    }
+    members.retain(|member| !member.is_empty());
+    members
 }
 
 /// The module of what the root of a crate re-exports.

@@ -4,6 +4,9 @@
 mod architecture;
 mod book;
 mod docstrings;
+mod executed;
+mod links;
+mod markdown;
 mod paper;
 
 use std::fs;
@@ -24,29 +27,8 @@ fn sources(folder: &str) -> Vec<PathBuf> {
     paths.sort();
     let within = |path: PathBuf| match path.extension() {
         None => sources(path.to_str().unwrap()),
-        Some(extension) => {
-            if extension == "rs" {
-                vec![path]
-            } else {
-                vec![]
-            }
-        }
+        Some(extension) if extension == "rs" => vec![path],
+        Some(_) => vec![],
     };
     paths.into_iter().flat_map(within).collect()
-}
-
-/// The rows of the tables of a page, each with its cells; without heads and rules.
-fn rows(page: &str) -> Vec<Vec<&str>> {
-    let lines: Vec<_> = page.lines().collect();
-    let is_row = |line: &str| line.starts_with('|');
-    let is_rule = |line: &str| line.starts_with("|---");
-    let body = lines.iter().enumerate().filter(|(k, line)| {
-        is_row(line) && !is_rule(line) && !lines.get(k + 1).is_some_and(|next| is_rule(next))
-    });
-    body.map(|(_, line)| line.trim_matches('|').split('|').map(str::trim).collect()).collect()
-}
-
-/// What stands in code spans.
-fn spans(text: &str) -> impl Iterator<Item = &str> {
-    text.split('`').skip(1).step_by(2)
 }

@@ -1,6 +1,7 @@
 //! `docs/paper.md`, the map from the report to the code: each row resolves, and none is missing.
 
-use crate::{ROOT, read, rows, sources, spans};
+use crate::markdown::{rows, spans};
+use crate::{ROOT, read, sources};
 use mean_information::operations::OPERATIONS;
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -16,7 +17,11 @@ fn every_row_resolves() {
     for row in &rows {
         let [place, what, chapter, function, vectors, test, ..] = row[..] else { panic!("{row:?}") };
         assert!(!place.is_empty() && !what.is_empty());
-        read(format!("docs/{}.md", chapter.trim_matches(['[', ']'])));
+        let derivation = read(format!("docs/{}.md", chapter.trim_matches(['[', ']'])));
+        if let Some(number) = place.strip_prefix("Eq. ") {
+            let tag = format!("\\tag{{{}}}", number.split(',').next().unwrap());
+            assert!(derivation.contains(&tag), "{place}: {chapter} has no {tag}");
+        }
         // That the link leads to it is checked by `cargo doc`; here, that there is an item of the name shown.
         let item = spans(function).next().unwrap_or_else(|| panic!("{place}: {function}"));
         let name = item.rsplit("::").next().unwrap();

@@ -12,12 +12,19 @@ use crate::real::Real;
 
 /// A number that formulas can be evaluated in: a float, an interval, or a rectangle of complex numbers.
 ///
+/// **Error**: floats have each function correctly rounded, but for the two within 2 ulp; intervals and rectangles contain
+/// the exact results (proved, [`rounding`](crate::book::rounding), [`quadrature`](crate::book::quadrature),
+/// [`integration`](crate::book::integration)). Floats are NaN outside the domain.
+///
 /// ```
 /// use mean_information::scalar::Scalar;
 /// fn deficit<S: Scalar>(t: S) -> S {
 ///     (S::constant(-0.5) * t.clone() * t).exp().entropy()
 /// }
 /// assert_eq!(deficit(1.75_f64), 0.7532889301805203); // bits
+/// assert_eq!(1e-17_f64.exp_m1(), 1e-17); // e^x rounds to 1
+/// assert_eq!((2.5_f64.ln(), 2.5_f64.sqrt()), (0.9162907318741551, 1.5811388300841898));
+/// assert_eq!((-2.5_f64).entropy_from_log_odds(), 0.3874143787596851); // bits
 /// ```
 pub trait Scalar:
     Clone
@@ -34,7 +41,7 @@ pub trait Scalar:
     /// `ln 2`: the nearest float, or an enclosure.
     fn ln_2() -> Self;
 
-    /// `e^x`.
+    /// `e^x`: of floats correctly rounded.
     #[must_use]
     fn exp(self) -> Self;
 
@@ -44,15 +51,16 @@ pub trait Scalar:
         -(Self::constant(1.0) - self.exp())
     }
 
-    /// The natural logarithm.
+    /// The natural logarithm: of floats correctly rounded.
     #[must_use]
     fn ln(self) -> Self;
 
-    /// The square root.
+    /// The square root: of floats correctly rounded.
     #[must_use]
     fn sqrt(self) -> Self;
 
-    /// Eq. 1: the Bernoulli entropy in bits, `-(p ln p + (1 - p) ln(1 - p)) / ln 2` for `p` in `[0, 1]`.
+    /// Eq. 1: the Bernoulli entropy in bits, `-(p ln p + (1 - p) ln(1 - p)) / ln 2` for `p` in `[0, 1]`: of floats
+    /// correctly rounded.
     #[must_use]
     fn entropy(self) -> Self;
 
@@ -68,7 +76,7 @@ pub trait Scalar:
         self.exp().entropy()
     }
 
-    /// The Bernoulli entropy in bits at log-odds `l = ln(p / (1 - p))`.
+    /// The Bernoulli entropy in bits at log-odds `l = ln(p / (1 - p))`: of floats correctly rounded.
     #[must_use]
     fn entropy_from_log_odds(self) -> Self;
 }
@@ -87,7 +95,7 @@ pub trait Scalar:
 /// assert_eq!(Decay { rate: 3.0 }.evaluate(0.5_f64), 0.22313016014842982);
 /// ```
 pub trait Integrand {
-    /// The value at `x`.
+    /// The value at `x`, as exact as `S` computes it ([`integration`](crate::book::integration)).
     fn evaluate<S: Scalar>(&self, x: S) -> S;
 }
 

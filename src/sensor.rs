@@ -8,18 +8,28 @@ use num_traits::Zero;
 
 /// The occupancy that a reading of a range sensor gives to points along its beam.
 ///
-/// Implement it to build maps from a model of your own.
+/// Implement it to build maps from a model of your own. Maps take what it gives for exact
+/// ([`sensor`](crate::book::sensor)).
+///
+/// ```
+/// use mean_information::sensor::{InverseSensorModel, SteppedSensor};
+/// let sensor = SteppedSensor::new(2.0_f64, 0.25, 0.125, 0.875)?;
+/// assert_eq!((sensor.plateau(), sensor.reach()), (1.8749999999999998, 2.125)); // metres
+/// assert_eq!(sensor.occupancy(1.5), 0.125);
+/// # Ok::<(), mean_information::Error>(())
+/// ```
 pub trait InverseSensorModel {
     /// The type of distances and occupancies.
     type Float: Real;
 
-    /// The occupancy at distance `rho` (metres) from the sensor, in `[0, 1]`; NaN at NaN.
+    /// The occupancy at distance `rho` (metres) from the sensor, in `[0, 1]`; NaN at NaN. [`GaussianSensor`]'s is
+    /// correctly rounded, [`SteppedSensor`]'s exact.
     fn occupancy(&self, rho: Self::Float) -> Self::Float;
 
-    /// A distance (metres) beyond which nothing is observed: `occupancy` is 1/2 at every greater `rho`.
+    /// A distance (metres) beyond which nothing is observed: `occupancy` is exactly 1/2 at every greater `rho`.
     fn reach(&self) -> Self::Float;
 
-    /// A distance (metres) up to which `occupancy` is what it is at 0: grid builders count those cells at once.
+    /// A distance (metres) up to which `occupancy` is exactly what it is at 0: grid builders count those cells at once.
     ///
     /// Any such distance will do; the default is 0.
     fn plateau(&self) -> Self::Float {

@@ -5,7 +5,7 @@ use crate::rounded;
 
 /// A direction in the plane: a cosine and a sine in units of `2^-62`.
 ///
-/// Each is within `0.51 * 2^-62` of that of the exact sum of the angles (proved: `docs/scan.md`), whatever their
+/// Each is within `0.51 * 2^-62` of that of the exact sum of the angles (proved, [`scan`](crate::book::scan)), whatever their
 /// size.
 ///
 /// ```
@@ -38,12 +38,12 @@ impl Direction {
         Ok(Self { cos, sin })
     }
 
-    /// The cosine, rounded to nearest.
+    /// The cosine, that in units of `2^-62` rounded once to nearest ([`scan`](crate::book::scan)).
     pub fn cos(self) -> f64 {
         self.cos as f64 / SCALE
     }
 
-    /// The sine, rounded to nearest.
+    /// The sine, that in units of `2^-62` rounded once to nearest ([`scan`](crate::book::scan)).
     pub fn sin(self) -> f64 {
         self.sin as f64 / SCALE
     }

@@ -185,6 +185,18 @@ impl<'a, E: Encoding> Hypotheses<'a, E> {
     /// # Errors
     /// As [`Self::expected_map`]; [`Error::Cell`] if a cell is certainly free in one map and certainly occupied in
     /// another, both of positive weight.
+    ///
+    /// ```
+    /// use mean_information::build::Hypotheses;
+    /// use mean_information::map::{Geometry, Grid, encoding::Probability};
+    /// let map = |cells: [f64; 2]| {
+    ///     Grid::<Probability<f64>>::new(2, 1, Geometry::new(0.25, [1.0, 0.5])?, cells.to_vec())
+    /// };
+    /// let maps = [map([0.125, 1.0])?, map([0.5, 0.75])?];
+    /// let pool = Hypotheses::new(&maps, &[6.0, 2.0])?.log_linear_pool()?;
+    /// assert_eq!(pool.cells(), [-1.4594326117914849, f64::INFINITY]); // nats: 3/4 of ln(1/7), and certainty
+    /// # Ok::<(), mean_information::Error>(())
+    /// ```
     pub fn log_linear_pool(&self) -> Result<Grid<LogOdds<E::Float>>, Error> {
         let alignment = self.alignment()?;
         let mut cells = self.room(&alignment)?;
@@ -216,8 +228,22 @@ impl<'a, E: Encoding> Hypotheses<'a, E> {
         Grid::new(width, height, geometry, cells)
     }
 
-    /// The weighted mean of the maps' own mean information, rounded once to nearest: what EMMI would be if the
+    /// The weighted mean of the maps' own mean information (Eq. 4, bits per observed cell): what EMMI would be if the
     /// hypotheses agreed in every cell.
+    ///
+    /// The exact mean of the floats of [`Tally::mean_information`], rounded once to nearest (proved,
+    /// [`expected`](crate::book::expected)).
+    ///
+    /// ```
+    /// use mean_information::build::Hypotheses;
+    /// use mean_information::map::{Geometry, Grid, encoding::Probability};
+    /// let map = |p: f64| Grid::<Probability<f64>>::new(1, 1, Geometry::new(0.25, [1.0, 0.5])?, vec![p]);
+    /// let maps = [map(0.125)?, map(0.75)?];
+    /// let hypotheses = Hypotheses::new(&maps, &[6.0, 2.0])?;
+    /// assert_eq!(hypotheses.mean_of_mean_information(), 0.3895071364855195);
+    /// assert_eq!(hypotheses.expected_map()?.tally().mean_information(), 0.14285156257162834); // EMMI
+    /// # Ok::<(), mean_information::Error>(())
+    /// ```
     pub fn mean_of_mean_information(&self) -> E::Float {
         let values: Vec<_> = self.maps.iter().map(|map| map.tally().mean_information()).collect();
         self.weights.mean(&values).nearest()

@@ -233,7 +233,7 @@ impl<T: Real> ScanMap<T> {
         Ok(())
     }
 
-    /// Entropy, information and counts over all cells (Eqs. 2 to 4): the tally of [`Self::log_odds`], to the bit, without
+    /// Entropy, information and counts over all cells (Eqs. 2 to 4): the bits of the tally of [`Self::log_odds`], without
     /// that map.
     ///
     /// Neighbours with the same log-odds are counted at once.
@@ -295,6 +295,16 @@ impl<T: Real> ScanMap<T> {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if the corner of the map is not finite.
+    ///
+    /// ```
+    /// use mean_information::build::{Beam, Pose, Scan, ScanMap};
+    /// use mean_information::sensor::SteppedSensor;
+    /// let scan = Scan::new(Pose::new(0.13, 0.12, 0.0)?, 2.0, vec![Beam { bearing: 0.0, range: Some(0.5) }])?;
+    /// let mut map = ScanMap::<f64>::new(0.25)?;
+    /// map.insert(&scan, |range| SteppedSensor::new(range, 0.25, 0.25, 0.875))?;
+    /// assert_eq!(map.probabilities()?.cells(), [0.25, 0.25, 0.875, 0.5]);
+    /// # Ok::<(), mean_information::Error>(())
+    /// ```
     pub fn probabilities(&self) -> Result<Grid<Probability<T>>, Error> {
         self.grid(occupancy_from_fixed_log_odds)
     }

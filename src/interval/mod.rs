@@ -121,7 +121,7 @@ impl<T: Endpoint> Interval<T> {
         self.lower <= x && x <= self.upper
     }
 
-    /// `upper - lower`, rounded up; `-inf` if empty.
+    /// `upper - lower`, within the spacing of floats there, rounded up; `-inf` if empty.
     ///
     /// ```
     /// use mean_information::interval::Interval;

@@ -41,18 +41,30 @@ impl<S: Scalar> Piece<S> {
 /// What one sensor reading, or several, say of the points around it: the entropy of the occupancy along a beam.
 ///
 /// Distances are `ρ = origin + scale t`, so that `t` can be small where `ρ` is large and its digits would be lost. The pieces
-/// together are the observed stretch, without overlap.
+/// together are the observed stretch, without overlap. Derived in [`limit`](crate::book::limit) (Eq. 6).
+///
+/// ```
+/// use mean_information::limit::RadialModel;
+/// use mean_information::sensor::GaussianSensor;
+/// let sensor = GaussianSensor::new(2.0_f64, 0.2)?;
+/// assert_eq!((sensor.origin(), sensor.scale()), (2.0, 0.2)); // metres
+/// // Behind the range, and as far before it.
+/// let pieces = sensor.pieces::<f64>();
+/// assert_eq!((pieces[0].start, pieces[0].mirrored), (0.0, true));
+/// assert_eq!(sensor.entropy(0, 0.75_f64), 0.8035170368928104); // bits, at 2.15 m and at 1.85 m
+/// # Ok::<(), mean_information::Error>(())
+/// ```
 pub trait RadialModel {
     /// The type of the distances.
     type Float: Real;
 
-    /// The distance (metres) at `t = 0`.
+    /// The distance (metres) at `t = 0`, exactly.
     fn origin(&self) -> Self::Float;
 
-    /// Metres per unit of `t`; positive.
+    /// Metres per unit of `t`, exactly; positive.
     fn scale(&self) -> Self::Float;
 
-    /// The pieces of the observed stretch.
+    /// The pieces of the observed stretch, their ends computed in `S`: as intervals they contain the exact ones.
     fn pieces<S: Scalar>(&self) -> Vec<Piece<S>>;
 
     /// The entropy (bits) of the occupancy at `t`, within the piece of the given index.

@@ -14,7 +14,19 @@ use std::sync::LazyLock;
 
 /// What a stored cell means. Implement it to measure maps in a format of your own; then [`Encoding::occupancy`] must
 /// lie in `[0, 1]`, and the methods that can be `None` must be so for the same values. For cells of 8 bits a
-/// [`Histogram`] gives a fast [`Encoding::tally`].
+/// [`Histogram`] gives a fast [`Encoding::tally`]. The measures are those of [`map`](crate::book::map) (Eqs. 1 to 4).
+///
+/// ```
+/// use mean_information::map::{Encoding, encoding::Percent};
+/// assert_eq!(Percent::value(83), 83.0);
+/// assert_eq!(Percent::occupancy(83), Some(0.83));
+/// assert_eq!(Percent::log_odds(83), Some(1.5856272637403817)); // nats
+/// assert_eq!(Percent::cell(83).map(|cell| cell.entropy()), Some(0.6577047787442195)); // bits
+/// assert_eq!(Percent::occupancy(101), None);
+/// let cells = [83, -1, 12];
+/// assert_eq!(Percent::tally(&cells).entropy(), 2.187065644031584); // bits
+/// assert_eq!(Percent::information(&cells).total(), 0.8129343559684161); // bits
+/// ```
 pub trait Encoding: Copy + Debug {
     /// What is stored per cell.
     type Stored: Copy + Debug + PartialEq + Send + Sync;
@@ -26,16 +38,18 @@ pub trait Encoding: Copy + Debug {
     /// The stored value of an unknown cell.
     fn unknown() -> Self::Stored;
 
-    /// The stored value as a number, for error messages.
+    /// The stored value as a number, exactly, for error messages.
     fn value(stored: Self::Stored) -> f64;
 
-    /// The cell that is stored; `None` if the value is not allowed.
+    /// The cell that is stored, its entropy and information (bits) correctly rounded from its occupancy or from its
+    /// log-odds; `None` if the value is not allowed.
     fn cell(stored: Self::Stored) -> Option<Cell<Self::Float>>;
 
-    /// The occupancy of the stored cell, 1/2 if unknown; `None` if the value is not allowed.
+    /// The occupancy of the stored cell, correctly rounded, 1/2 if unknown; `None` if the value is not allowed.
     fn occupancy(stored: Self::Stored) -> Option<Self::Float>;
 
-    /// The log-odds of the stored cell in nats, 0 if unknown; `None` if the value is not allowed.
+    /// The log-odds of the stored cell in nats, correctly rounded, 0 if unknown; `None` if the value is not allowed. Unless
+    /// an encoding says otherwise, they are those of its [`occupancy`](Self::occupancy).
     fn log_odds(stored: Self::Stored) -> Option<Self::Float> {
         Self::occupancy(stored).map(cell::log_odds_from_occupancy)
     }
@@ -45,12 +59,12 @@ pub trait Encoding: Copy + Debug {
         Self::occupancy(stored).is_some()
     }
 
-    /// The tally of the stored cells, passing over values that are not allowed.
+    /// The exact sums over the stored cells, passing over values that are not allowed.
     fn tally(cells: &[Self::Stored]) -> Tally<Self::Float> {
         cells.iter().filter_map(|&stored| Self::cell(stored)).collect()
     }
 
-    /// The information of the stored cells: that of their tally, but entropies need not be computed.
+    /// The information of the stored cells, to the same bits as in their tally, but entropies need not be computed.
     fn information(cells: &[Self::Stored]) -> Information<Self::Float> {
         (&Self::tally(cells)).into()
     }

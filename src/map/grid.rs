@@ -20,7 +20,8 @@ use rayon::prelude::*;
 /// let map = Grid::<Percent>::new(3, 2, geometry, vec![0, 2, 50, -1, 97, 100])?;
 /// let tally = map.tally();
 /// assert_eq!((tally.free(), tally.occupied(), tally.unknown()), (2, 2, 2));
-/// assert_eq!(tally.mean_information(), 0.9160418999066507);
+/// assert_eq!(tally.mean_information(), 0.9160418999066507); // bits per observed cell
+/// assert_eq!((map.occupancy(1, 1), map.occupancy(2, 1)), (Some(0.97), None));
 /// # Ok::<(), mean_information::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]

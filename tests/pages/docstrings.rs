@@ -1,5 +1,6 @@
 //! What a public docstring says of a result: how exact it is, where that comes from, and an example with a number.
 
+use crate::markdown::rows;
 use crate::{read, sources};
 
 /// Words of which one tells how far a result may be from the exact one.
@@ -14,21 +15,37 @@ const EXACTNESS: [&str; 9] = [
     "rounded once",
     "claim",
 ];
-/// Words of which one tells where a formula or its bound comes from.
+/// Words of which one tells where a formula or its bound comes from, in the docstring of the function or its type.
 const SOURCE: [&str; 6] = ["Eq.", "Eqs.", "crate::book::", "IEEE 754", "Theorem", "See [`"];
 /// Types of results that are computed.
-const RESULTS: [&str; 10] =
-    ["T", "f64", "Float", "Tally", "Information", "Grid", "PolarMap", "Estimate", "Enclosure", "ExpectedMap"];
+const RESULTS: [&str; 13] = [
+    "T",
+    "S",
+    "f64",
+    "Float",
+    "Self",
+    "Tally",
+    "Information",
+    "Interval",
+    "Grid",
+    "PolarMap",
+    "Estimate",
+    "Enclosure",
+    "ExpectedMap",
+];
 
-/// A public function.
+/// A public function, or one of a public trait.
 struct Function {
     /// File and line.
     place: String,
+    /// With its type or trait, as in `Tally::entropy`, or with its module.
     name: String,
-    /// Its own docstring.
     doc: String,
-    /// That of the `impl`'s type, where it stands in the same file.
+    /// That of its type or trait.
     of_type: String,
+    /// Whether it is a trait's, and documented there.
+    inherited: bool,
+    arguments: String,
     returns: String,
     body: String,
 }
@@ -36,11 +53,28 @@ struct Function {
 impl Function {
     /// A float, sums, a map or an integral, and not one that was handed in.
     fn computes(&self) -> bool {
-        let words = self.returns.split(|c: char| !c.is_alphanumeric());
-        let field = self.body.starts_with(['&', '[', 's']) && !self.body.replace("()", "").contains('(');
-        let given = self.returns.starts_with('&') || field;
-        !given && words.clone().any(|word| RESULTS.contains(&word))
+        let mut words = self.returns.split(|c: char| !c.is_alphanumeric());
+        let field =
+            self.body.starts_with(['&', '[', 's']) && !self.body.replace("()", "").contains(['(', '/']);
+        let given = self.returns.starts_with('&') || field || self.name.ends_with("::new");
+        !self.inherited && !given && !self.arguments.is_empty() && words.any(|word| RESULTS.contains(&word))
     }
+
+    /// In its own example, or in that of its type.
+    fn is_shown(&self) -> bool {
+        let name = self.name.rsplit("::").next().unwrap();
+        let called = [format!(".{name}("), format!("::{name}("), format!(".{name}::<")];
+        self.doc.contains("```") || called.iter().any(|call| self.of_type.contains(call))
+    }
+}
+
+/// What a function stands in.
+#[derive(Clone, Copy, PartialEq)]
+enum Block {
+    Free,
+    Own,
+    Trait,
+    OfTrait,
 }
 
 /// The public functions of a file. `pub` means reachable here: the lint `unreachable_pub` is on.
@@ -48,70 +82,129 @@ fn functions(file: &str, text: &str) -> Vec<Function> {
     let lines: Vec<_> = text.lines().collect();
     let doc_above = |at: usize| -> String {
         let above = lines[..at].iter().rev().map(|line| line.trim());
-        let doc = above.take_while(|line| line.starts_with("///") || line.starts_with("#["));
-        let mut doc: Vec<_> = doc.collect();
+        let mut doc: Vec<_> =
+            above.take_while(|line| line.starts_with("///") || line.starts_with("#[")).collect();
         doc.reverse();
         doc.join("\n")
     };
+    let module = file.trim_end_matches(".rs").trim_end_matches("/mod").rsplit('/').next().unwrap();
+    let free = (module.to_owned(), String::new(), Block::Free);
+    let (mut of, mut of_type, mut block) = free.clone();
     let mut found = Vec::new();
-    let mut of_type = String::new();
     for (at, line) in lines.iter().enumerate() {
-        if line.starts_with("impl") {
-            let head = line.trim_end_matches(" {").rsplit(" for ").next().unwrap();
-            let name = head
-                .trim_start_matches("impl")
-                .split('>')
-                .rev()
-                .find(|part| !part.trim().is_empty())
-                .unwrap();
-            let name = name.split('<').next().unwrap().trim();
-            let declared = lines.iter().position(|line| line.starts_with(&format!("pub struct {name}")));
+        if line.starts_with("impl") || line.starts_with("pub trait ") {
+            (of, block) = match line.strip_prefix("pub trait ") {
+                Some(rest) => (first_word(rest).to_owned(), Block::Trait),
+                None if line.contains(" for ") => (implemented(line).to_owned(), Block::OfTrait),
+                None => (implemented(line).to_owned(), Block::Own),
+            };
+            let heads = ["struct", "trait"].map(|kind| format!("pub {kind} {of}"));
+            let declared = lines.iter().position(|line| heads.iter().any(|head| line.starts_with(head)));
             of_type = declared.map(doc_above).unwrap_or_default();
+        } else if *line == "}" {
+            (of, of_type, block) = free.clone();
         }
-        let Some((_, rest)) = line.split_once("pub fn ").or_else(|| line.split_once("pub const fn ")) else {
-            continue;
-        };
+        let of_trait =
+            line.strip_prefix("    fn ").filter(|_| [Block::Trait, Block::OfTrait].contains(&block));
+        let public =
+            || line.trim_start().strip_prefix("pub ")?.trim_start_matches("const ").strip_prefix("fn ");
+        let Some(rest) = of_trait.or_else(public) else { continue };
         let code = lines[at..].join("\n");
-        let (signature, body) = code.split_once(" {\n").unwrap();
-        let returns = signature.split_once("-> ").map_or("", |(_, returns)| returns);
+        let (signature, body) = [" {\n", ";\n"]
+            .iter()
+            .filter_map(|end| code.split_once(end))
+            .min_by_key(|(signature, _)| signature.len())
+            .unwrap();
+        let (arguments, returns) = signature.split_once("-> ").unwrap_or((signature, ""));
+        let returns = returns.split("\nwhere").next().unwrap();
         found.push(Function {
             place: format!("{file}:{}", at + 1),
-            name: rest.split(['<', '(']).next().unwrap().to_owned(),
+            name: format!("{of}::{}", first_word(rest)),
             doc: doc_above(at),
             of_type: of_type.clone(),
-            returns: returns.split("\nwhere").next().unwrap().to_owned(),
+            inherited: block == Block::OfTrait || of_type.contains("/// Sealed"),
+            arguments: arguments.split_once('(').unwrap().1.trim_end_matches([' ', ')']).to_owned(),
+            returns: if block == Block::Trait { returns.to_owned() } else { returns.replace("Self", &of) },
             body: body.split("\n    }").next().unwrap().trim().to_owned(),
         });
     }
     found
 }
 
+fn first_word(text: &str) -> &str {
+    text.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap()
+}
+
+/// The type of an `impl`.
+fn implemented(line: &str) -> &str {
+    let head = line.trim_start_matches("impl").rsplit(" for ").next().unwrap();
+    // Past the parameters, `<T: Real>`.
+    let mut depth = 0;
+    let start = head.find(|c| {
+        depth += i32::from(c == '<') - i32::from(c == '>');
+        depth == 0 && c != '>' && c != ' '
+    });
+    first_word(&head[start.unwrap()..])
+}
+
+/// Every public function of the library.
+fn all() -> Vec<Function> {
+    sources("src").iter().flat_map(|file| functions(file.to_str().unwrap(), &read(file))).collect()
+}
+
 #[test]
 fn a_result_says_how_exact_it_is_and_why() {
     let (mut computed, mut faults) = (0, Vec::new());
-    for file in sources("src").iter().map(|file| file.to_str().unwrap()) {
-        let text = read(file);
-        for function in functions(file, &text) {
-            let Function { place, name, doc, of_type, returns, .. } = &function;
-            let says = |words: &[&str]| words.iter().any(|word| doc.contains(word) || of_type.contains(word));
-            let mut fault = |what: &str| faults.push(format!("{place} {name}: {what}"));
-            if returns.contains("Result<") && !doc.contains("# Errors") {
-                fault("no heading `# Errors`");
+    for function in all() {
+        let Function { place, name, doc, .. } = &function;
+        let says = |words: &[&str]| words.iter().any(|word| doc.contains(word));
+        let of_type = |words: &[&str]| words.iter().any(|word| function.of_type.contains(word));
+        let mut fault = |what: &str| faults.push(format!("{place} {name}: {what}"));
+        if !function.inherited && function.returns.contains("Result<") && !says(&["# Errors"]) {
+            fault("no heading `# Errors`");
+        }
+        if function.computes() {
+            computed += 1;
+            if !says(&EXACTNESS) {
+                fault("how exact?");
             }
-            if function.computes() {
-                computed += 1;
-                if !says(&EXACTNESS) {
-                    fault("how exact?");
-                }
-                if !says(&SOURCE) {
-                    fault("from where?");
-                }
-                if !says(&["```"]) {
-                    fault("no example");
-                }
+            if !says(&SOURCE) && !of_type(&SOURCE) {
+                fault("from where?");
+            }
+            if !function.is_shown() {
+                fault("no example");
             }
         }
     }
     assert!(computed > 40, "{computed}");
     assert!(faults.is_empty(), "{} of {computed}:\n{}", faults.len(), faults.join("\n"));
+}
+
+/// The table of guarantees and the docstrings give the same bounds.
+#[test]
+fn a_guarantee_is_in_the_docstring() {
+    let page = read("docs/guarantees.md");
+    let (page, _) = page.split_once("<!-- end -->").unwrap();
+    let functions = all();
+    for row in rows(page) {
+        let function = row[0].trim_matches('`');
+        let Some((of, name)) = function.split_once("::") else { continue };
+        // A module is that of the file, or of its folder.
+        let is_it = |known: &&Function| {
+            let in_module = known.place.starts_with(&format!("src/{of}")) && known.of_type.is_empty();
+            known.name == function || known.name.ends_with(&format!("::{name}")) && in_module
+        };
+        let known = functions.iter().find(is_it).unwrap_or_else(|| panic!("{function}: where?"));
+        let words: &[&str] = match row[2] {
+            "0 ulp" => &["lies between", "contain", "enclos"],
+            "0.5 ulp" => &["orrectly rounded", "rounded once", "roundings of the exact"],
+            bound => &[bound],
+        };
+        assert!(
+            words.iter().any(|word| known.doc.contains(word)),
+            "{}: {function}: not {}",
+            known.place,
+            row[2]
+        );
+    }
 }

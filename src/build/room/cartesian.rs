@@ -130,7 +130,7 @@ impl<M: InverseSensorModel> CartesianRoom<M> {
     }
 
     /// Part `part` of `parts` of the tally, about equal in work, for as many threads or machines: merged in any order they
-    /// are the tally.
+    /// have the bits of the tally.
     ///
     /// # Errors
     /// As [`tally`](Self::tally), and [`Error::OutOfRange`] if `part` is not below `parts`.
@@ -183,11 +183,22 @@ impl<M: InverseSensorModel> CartesianRoom<M> {
         (0..parts).into_par_iter().map(|part| self.tally_part(part, parts)).sum()
     }
 
-    /// The map itself, row 0 the lowest, with its place in the world.
+    /// The map itself, row 0 the lowest, with its place in the world: each cell the model's occupancy at its
+    /// [`distance`](Self::distance), or the exact average of its samples' rounded once.
     ///
     /// # Errors
     /// [`Error::TooManyCells`] if it has more than `max_cells` cells, or more samples than the limit; [`Error::OutOfRange`] if
     /// the model gives an occupancy outside `[0, 1]`.
+    ///
+    /// ```
+    /// use mean_information::build::CartesianRoom;
+    /// use mean_information::sensor::GaussianSensor;
+    /// let room = CartesianRoom::new(GaussianSensor::new(2.0_f64, 0.2)?, 0.25, [0.0, 0.5])?;
+    /// let map = room.map(400)?;
+    /// assert_eq!((map.width(), map.height()), (17, 18));
+    /// assert_eq!(map.occupancy(2, 8), Some(0.17242162389375285)); // at x = 0, y = -1.625 metres
+    /// # Ok::<(), mean_information::Error>(())
+    /// ```
     pub fn map(&self, max_cells: usize) -> Result<Grid<Probability<M::Float>>, Error> {
         let extent = self.extent()?;
         let (width, height) = (extent.width(), extent.height());

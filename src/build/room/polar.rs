@@ -108,11 +108,21 @@ impl<M: InverseSensorModel> PolarRoom<M> {
         Ok(tally)
     }
 
-    /// The map itself, in `sectors` equal sectors.
+    /// The map itself, in `sectors` equal sectors: each cell the model's occupancy at its [`distance`](Self::distance),
+    /// or the exact average of its samples' rounded once.
     ///
     /// # Errors
     /// [`Error::TooManyCells`] if it has more than `max_cells` cells, or its rings more samples than the limit;
     /// [`Error::OutOfRange`] if the model gives an occupancy outside `[0, 1]`.
+    ///
+    /// ```
+    /// use mean_information::build::PolarRoom;
+    /// use mean_information::sensor::GaussianSensor;
+    /// let map = PolarRoom::new(GaussianSensor::new(2.0_f64, 0.2)?, 0.25)?.map(3, 100)?;
+    /// assert_eq!((map.sectors(), map.rings()), (3, 9));
+    /// assert_eq!(map.occupancy(2, 6), Some(0.17242162389375285)); // at 1.625 metres
+    /// # Ok::<(), mean_information::Error>(())
+    /// ```
     pub fn map(&self, sectors: usize, max_cells: usize) -> Result<PolarMap<Probability<M::Float>>, Error> {
         let rings = self.rings()?;
         let count = u128::from(rings) * sectors as u128;

@@ -132,7 +132,7 @@ impl<T: Real> GaussKronrod<T> {
     /// The integral of `f` from the first of the points to the last, with panels that begin between them: give those
     /// where `f` or its derivatives jump or are infinite, and a few about each narrow peak ([`graded`]).
     ///
-    /// Error, status and special case as for [`integrate`](Self::integrate). Points may repeat.
+    /// **Error**: the claim of [`integrate`](Self::integrate), whose status and special case hold, too. Points may repeat.
     ///
     /// # Errors
     /// As for [`integrate`](Self::integrate), with fewer than two points among them; [`Error::Item`] if a point

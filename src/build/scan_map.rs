@@ -37,7 +37,7 @@ use rayon::prelude::*;
 /// let mut map = ScanMap::<f64>::new(0.25)?;
 /// map.insert(&scan, |range| GaussianSensor::new(range, 0.1))?;
 /// let tally = map.log_odds()?.tally();
-/// assert_eq!((tally.free(), tally.occupied()), (14, 1));
+/// assert_eq!((tally.free(), tally.occupied(), map.resolution()), (14, 1, 0.25));
 /// # Ok::<(), mean_information::Error>(())
 /// ```
 #[derive(Clone, Debug)]
@@ -102,7 +102,7 @@ impl<T: Real> ScanMap<T> {
         Self { max_cells, ..self }
     }
 
-    /// The side of a cell, in metres.
+    /// The side of a cell, in metres, exactly as it was given.
     pub fn resolution(&self) -> f64 {
         self.lattice.resolution()
     }

@@ -20,6 +20,7 @@ use core::marker::PhantomData;
 /// let mut information = Information::from_occupancies(&cells[..2]);
 /// information.merge(&Information::from_occupancies(&cells[2..]));
 /// assert_eq!((information.observed(), information.unknown()), (2, 1));
+/// assert_eq!(information.total(), 0.9880995512281525); // bits
 /// assert_eq!(information.mean(), 0.49404977561407626); // bits per observed cell
 /// assert_eq!(information.mean(), Tally::from_occupancies(&cells).mean_information());
 /// ```

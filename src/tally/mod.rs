@@ -37,7 +37,8 @@ const TOO_MANY: &str = "a tally holds at most 2^64 - 1 cells";
 ///     tally.add(Cell::from_occupancy(p)?);
 /// }
 /// assert_eq!((tally.observed(), tally.unknown()), (2, 1));
-/// assert_eq!(tally.mean_information(), 0.49404977561407626);
+/// assert_eq!((tally.entropy(), tally.information()), (2.0119004487718476, 0.9880995512281525)); // bits
+/// assert_eq!(tally.mean_information(), 0.49404977561407626); // bits per observed cell
 /// # Ok::<(), mean_information::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]

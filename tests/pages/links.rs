@@ -1,7 +1,7 @@
 //! Links, paths in code spans and cited sections lead somewhere, on every page.
 
 use crate::markdown::{anchors, links, plain, spans};
-use crate::{ROOT, read};
+use crate::{ROOT, read, versioned};
 use std::collections::BTreeSet;
 use std::ffi::OsStr;
 use std::fs;
@@ -15,19 +15,27 @@ fn pages() -> Vec<PathBuf> {
     let is_page = |path: &PathBuf| {
         path.extension().is_some_and(|extension| extension == "md") && !path.ends_with("src/book/links.md")
     };
-    let mut pages: Vec<_> = files(Path::new(ROOT)).into_iter().filter(is_page).collect();
+    let mut pages: Vec<_> = files().into_iter().filter(is_page).collect();
     pages.sort();
     pages
 }
 
-/// The files in a folder and those within it, but for what is built and what is hidden.
-fn files(folder: &Path) -> Vec<PathBuf> {
+/// The versioned files that are there; without git, all but what is built and what is hidden.
+fn files() -> Vec<PathBuf> {
+    let root = Path::new(ROOT);
+    match versioned() {
+        Some(files) => files.iter().map(|file| root.join(file)).filter(|file| file.exists()).collect(),
+        None => files_within(root),
+    }
+}
+
+fn files_within(folder: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let shown = entries.filter(|path| {
         let name = path.file_name().unwrap().to_str().unwrap();
         !name.starts_with('.') && name != "target"
     });
-    shown.flat_map(|path| if path.is_dir() { files(&path) } else { vec![path] }).collect()
+    shown.flat_map(|path| if path.is_dir() { files_within(&path) } else { vec![path] }).collect()
 }
 
 #[test]
@@ -70,7 +78,7 @@ fn paths_in_code_spans_are_there() {
     if !Path::new(ROOT).join("cli").exists() {
         return println!("skipped: the package of the library is without the rest of the tree");
     }
-    let files = files(Path::new(ROOT));
+    let files = files();
     let names: BTreeSet<_> = files.iter().filter_map(|file| file.file_name()).collect();
     let extensions: BTreeSet<_> = files.iter().filter_map(|file| file.extension()).collect();
     let (mut count, mut wrong) = (0, Vec::new());

@@ -11,6 +11,7 @@ mod paper;
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 /// The folder of the library's package.
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
@@ -18,6 +19,16 @@ const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 fn read(path: impl AsRef<Path>) -> String {
     let path = Path::new(ROOT).join(path);
     fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// The files that git knows, from the root, where there is a checkout and git to ask.
+fn versioned() -> Option<Vec<String>> {
+    if !Path::new(ROOT).join(".git").exists() {
+        return None;
+    }
+    let output = Command::new("git").args(["-C", ROOT, "ls-files"]).output().ok()?;
+    let files = String::from_utf8(output.stdout).ok().filter(|_| output.status.success())?;
+    Some(files.lines().map(str::to_owned).collect())
 }
 
 /// The files with Rust in a folder and those within it, from the root, in order.

@@ -18,6 +18,6 @@ impl<'de> Deserialize<'de> for Histogram {
         let counts = <[u64; 256]>::try_from(counts).map_err(|counts| {
             D::Error::custom(format_args!("a histogram is a list of 256 counts, not of {}", counts.len()))
         })?;
-        Self::from_counts(counts).ok_or_else(|| D::Error::custom(TOO_MANY))
+        Self::from_counts(&counts).ok_or_else(|| D::Error::custom(TOO_MANY))
     }
 }

@@ -1,4 +1,5 @@
-//! Scans inserted into a map: the time of a beam and of a cell it crosses; and expected maps: of a cell of a particle.
+//! Scans inserted into a map: the time of a beam and of a cell it crosses; the tally of a cell after many scans; and
+//! expected maps: the time of a cell of a particle, and of a cell on which they agree.
 //!
 //! `cargo bench --bench scan`.
 
@@ -9,7 +10,7 @@ use mean_information::Error;
 use mean_information::build::{Beam, Hypotheses, Pose, Scan, ScanMap};
 use mean_information::map::encoding::{MrptLogOdds, Probability};
 use mean_information::map::{Encoding, Geometry, Grid};
-use mean_information::sensor::{GaussianSensor, SteppedSensor};
+use mean_information::sensor::{GaussianSensor, InverseSensorModel, SteppedSensor};
 use std::hint::black_box;
 
 /// A laser scanner of 360 beams, whose ranges are spread from 1 m to 9 m by the golden ratio.
@@ -57,6 +58,44 @@ fn insertion(criterion: &mut Criterion) {
     }
 }
 
+/// The tally of a map that `scans` scans of 720 beams were added to, 13 cm and 0.1 rad apart.
+fn map_of_scans(criterion: &mut Criterion) {
+    fn run<M: InverseSensorModel<Float = f64>>(
+        criterion: &mut Criterion,
+        name: &str,
+        model: impl Fn(f64) -> Result<M, Error>,
+    ) {
+        let mut group = criterion.benchmark_group(format!("tally of a map of scans, {name}"));
+        let (mut map, mut scans) = (ScanMap::<f64>::new(0.05).unwrap(), 0);
+        for wanted in [1, 30, 100] {
+            while scans < wanted {
+                let step = f64::from(scans);
+                let beam = |k: u32| {
+                    let k = f64::from(k);
+                    Beam {
+                        bearing: 0.008_72 * k,
+                        range: Some(6.0 + 3.0 * (1.0 - (0.016 * k).fract() * 2.0).abs()),
+                    }
+                };
+                let pose = Pose::new(0.13 * step, 0.0, 0.1 * step).unwrap();
+                map.insert(&Scan::new(pose, 12.0, (0..720).map(beam).collect()).unwrap(), &model).unwrap();
+                scans += 1;
+            }
+            let tally = map.tally();
+            assert_eq!(tally, map.log_odds().unwrap().tally());
+            group.throughput(Throughput::Elements(tally.cells()));
+            group.bench_function(BenchmarkId::new("alone", wanted), |bencher| {
+                bencher.iter(|| black_box(&map).tally());
+            });
+            group.bench_function(BenchmarkId::new("with the log-odds", wanted), |bencher| {
+                bencher.iter(|| black_box(&map).log_odds().unwrap().tally());
+            });
+        }
+    }
+    run(criterion, "steps", |range| SteppedSensor::new(range, 0.1, 0.3, 0.9));
+    run(criterion, "Eq. 5", |range| GaussianSensor::new(range, 0.05));
+}
+
 /// Twenty particles of 64 x 64 cells, a third of them unknown, and unequal weights.
 fn particles<E: Encoding>(stored: impl Fn(usize) -> E::Stored) -> (Vec<Grid<E>>, Vec<f64>) {
     let geometry = Geometry::new(0.05, [0.0; 2]).unwrap();
@@ -87,5 +126,37 @@ fn expected(criterion: &mut Criterion) {
     run(criterion, "MRPT's bytes", 0.7907388516355743, bytes);
 }
 
-criterion_group!(benches, insertion, expected);
+/// Twenty particles of 1000 x 1000 cells in MRPT's bytes.
+fn agreement(criterion: &mut Criterion) {
+    const SIDE: usize = 1000;
+    let common = |k: usize| [0, 0, 0, 40, 40, 40, -60][k / 50 % 7];
+    // Whether a particle has its own opinion of a cell: one of twenty in one of a hundred cells.
+    let own = |particle: usize, k: usize| {
+        let hash = (k as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40;
+        hash % 100 == 0 && hash / 100 % 20 == particle as u64
+    };
+    let cases: [(&str, &dyn Fn(usize, usize) -> i8); 5] = [
+        ("all unknown", &|_, _| 0),
+        ("all agree, in runs", &|_, k| common(k)),
+        ("all agree, each cell for itself", &|_, k| (k * 89 % 251) as i8),
+        ("1 % differ", &|particle, k| if own(particle, k) { 7 } else { common(k) }),
+        ("all differ", &|particle, k| ((k * 89 + particle * 31) % 251) as i8),
+    ];
+    let mut group = criterion.benchmark_group("expected tally of 20 particles of 1000 x 1000");
+    group.sample_size(10).throughput(Throughput::Elements((SIDE * SIDE) as u64));
+    let weights: Vec<f64> = (1..=20).map(|k| 0.3 / f64::from(k)).collect();
+    let geometry = Geometry::new(0.05, [0.0; 2]).unwrap();
+    for (name, stored) in cases {
+        let map = |particle| {
+            let cells = (0..SIDE * SIDE).map(|k| stored(particle, k)).collect();
+            Grid::<MrptLogOdds>::new(SIDE, SIDE, geometry, cells).unwrap()
+        };
+        let maps: Vec<_> = (0..20).map(map).collect();
+        let hypotheses = Hypotheses::new(&maps, &weights).unwrap();
+        assert_eq!(&hypotheses.expected_tally().unwrap(), hypotheses.expected_map().unwrap().tally());
+        group.bench_function(name, |bencher| bencher.iter(|| black_box(&hypotheses).expected_tally()));
+    }
+}
+
+criterion_group!(benches, insertion, map_of_scans, expected, agreement);
 criterion_main!(benches);

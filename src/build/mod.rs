@@ -10,10 +10,13 @@ mod direction;
 mod expected;
 mod fusion;
 mod lattice;
+mod marginals;
+mod parts;
 mod raster;
 mod room;
 mod scan;
 mod scan_map;
+mod stack;
 mod traversal;
 mod weights;
 

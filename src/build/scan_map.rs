@@ -1,12 +1,14 @@
 //! Scans inserted into a map: log-odds of an inverse sensor model along each beam, added up exactly.
 
 use super::lattice::{Lattice, Point};
+use super::parts;
 use super::raster::{Area, Raster};
 use super::scan::{Beam, Scan};
 use super::traversal::{Traversal, cell_of};
 use crate::cell;
 use crate::error::Error;
 use crate::map::encoding::{LogOdds, Probability};
+use crate::map::repeated::Repeated;
 use crate::map::{Encoding, Geometry, Grid};
 use crate::real::Real;
 use crate::rounded::{LOG_ODDS_SCALE, fixed_log_odds, occupancy_from_fixed_log_odds, round_log_odds};
@@ -14,6 +16,7 @@ use crate::sensor::InverseSensorModel;
 use crate::tally::Tally;
 use alloc::vec::Vec;
 use core::marker::PhantomData;
+use core::ops::Range;
 #[cfg(feature = "rayon")]
 use rayon::prelude::*;
 
@@ -25,7 +28,8 @@ use rayon::prelude::*;
 /// ([`scan`](crate::book::scan)).
 ///
 /// Memory: 16 bytes for each cell of the rectangle that was seen, and to spare half as much again on each side that
-/// grew; while a scan is inserted, two floats for each cell of the rectangle of that scan.
+/// grew; while a scan is inserted, two floats for each cell of the rectangle of that scan, and while the map grows the
+/// old and the new one.
 ///
 /// ```
 /// use mean_information::build::{Beam, Pose, Scan, ScanMap};
@@ -236,7 +240,7 @@ impl<T: Real> ScanMap<T> {
     /// Entropy, information and counts over all cells (Eqs. 2 to 4): the bits of the tally of [`Self::log_odds`], without
     /// that map.
     ///
-    /// Neighbours with the same log-odds are counted at once.
+    /// Cells are counted by their log-odds first, of which scans leave few: most are computed once for many cells.
     ///
     /// ```
     /// use mean_information::build::{Beam, Pose, Scan, ScanMap};
@@ -250,11 +254,7 @@ impl<T: Real> ScanMap<T> {
     /// # Ok::<(), mean_information::Error>(())
     /// ```
     pub fn tally(&self) -> Tally<T> {
-        let mut tally = Tally::new();
-        if let Some((seen, sums)) = &self.seen {
-            sums.rows(*seen).for_each(|row| count(&mut tally, row));
-        }
-        tally
+        self.tally_of(0..self.cells())
     }
 
     /// [`Self::tally`] by as many threads as rayon has: the same bits for any number of them.
@@ -270,13 +270,37 @@ impl<T: Real> ScanMap<T> {
     /// ```
     #[cfg(feature = "rayon")]
     pub fn par_tally(&self) -> Tally<T> {
-        let Some((seen, sums)) = &self.seen else { return Tally::new() };
-        let (low, [_, height]) = (seen.low()[1], seen.size());
-        let of_row = |mut tally: Tally<T>, row: usize| {
-            count(&mut tally, sums.row(*seen, low + row as i64));
-            tally
+        parts::for_threads(self.cells()).map(|cells| self.tally_of(cells)).sum()
+    }
+
+    /// How many cells the rectangle has that was seen.
+    fn cells(&self) -> u64 {
+        self.seen.as_ref().map_or(0, |(seen, _)| seen.cells() as u64)
+    }
+
+    /// Of some of these cells, by their numbers.
+    fn tally_of(&self, cells: Range<u64>) -> Tally<T> {
+        let mut tally = Tally::new();
+        let Some((seen, sums)) = &self.seen else { return tally };
+        let mut add = |(sum, count): (i128, u64)| {
+            if let Some(cell) = LogOdds::cell(round_log_odds(sum)) {
+                tally.add_many(cell, count);
+            }
         };
-        (0..height).into_par_iter().fold(Tally::new, of_row).sum()
+        let mut counts = Repeated::new(cells.end - cells.start, 0);
+        let (low, [width, _]) = (seen.low()[1], seen.size());
+        for (row, columns) in parts::rows(cells, width, width) {
+            for run in sums.row(*seen, low + row as i64)[columns].chunk_by(|a, b| a == b) {
+                let sum = run[0];
+                // Of the fraction and of the sign: both halves.
+                let bits = sum as u64 ^ (sum >> 64) as u64;
+                if let Some(lost) = counts.add(sum, bits, run.len() as u64) {
+                    add(lost);
+                }
+            }
+        }
+        counts.into_counts().for_each(add);
+        tally
     }
 
     /// The map in log-odds (nats), as large as what the beams have crossed.
@@ -317,15 +341,6 @@ impl<T: Real> ScanMap<T> {
         let [width, height] = seen.size();
         let cells = sums.rows(*seen).flatten().map(|&sum| stored(sum)).collect();
         Grid::new(width, height, Geometry::new(self.resolution(), origin)?, cells)
-    }
-}
-
-/// Counts the cells of these sums of log-odds.
-fn count<T: Real>(tally: &mut Tally<T>, sums: &[i128]) {
-    for run in sums.chunk_by(|a, b| a == b) {
-        if let Some(cell) = LogOdds::cell(round_log_odds(run[0])) {
-            tally.add_many(cell, run.len() as u64);
-        }
     }
 }
 

@@ -9,7 +9,7 @@ mod polar;
 mod pooling;
 #[cfg(feature = "serde")]
 mod portable;
-mod repeated;
+pub(crate) mod repeated;
 
 pub use encoding::Encoding;
 pub use geometry::Geometry;

@@ -63,10 +63,17 @@ impl ExactSum {
         self.add_at((e - LOWEST) as usize, u128::from(m) * u128::from(count));
     }
 
-    /// Adds a number in `[0, 1]`, cut below the smallest positive `T`.
-    pub(crate) fn add_fixed<T: Real>(&mut self, Fixed { value, exponent }: Fixed) {
+    /// Adds a number, cut below the smallest positive `T`, `count` times.
+    #[inline]
+    pub(crate) fn add_fixed<T: Real>(&mut self, Fixed { value, exponent }: Fixed, count: u64) {
         let exponent_kept = exponent.max(T::MIN_EXPONENT);
-        self.add_at((exponent_kept - LOWEST) as usize, shift_right(value, exponent_kept - exponent));
+        let (place, n) = ((exponent_kept - LOWEST) as usize, shift_right(value, exponent_kept - exponent));
+        if count == 1 {
+            return self.add_at(place, n);
+        }
+        // 128 bits times 64, in halves.
+        self.add_at(place, u128::from(n as u64) * u128::from(count));
+        self.add_at(place + 64, (n >> 64) * u128::from(count));
     }
 
     /// Adds `n` units of `2^(LOWEST + place)`.

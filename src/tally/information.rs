@@ -73,7 +73,7 @@ impl<T: Real> Information<T> {
         let mut sums = Self::new();
         #[cfg(feature = "std")]
         let cells = blocks::each(cells, lanes::information, |block, left| {
-            sums.sum.add_fixed::<T>(block.information);
+            sums.sum.add_fixed::<T>(block.information, 1);
             sums.unknown += block.unknown;
             sums.observed += block.free;
             left.for_each(|p| sums.add_occupancy(p));

@@ -19,6 +19,7 @@ use crate::real::Real;
 #[cfg(feature = "std")]
 use crate::rounded::lanes;
 use crate::rounded::mean::Both;
+use core::borrow::Borrow;
 use core::iter::Sum;
 use core::marker::PhantomData;
 
@@ -113,8 +114,8 @@ impl<T: Real> Tally<T> {
         let mut tally = Self::new();
         #[cfg(feature = "std")]
         let cells = blocks::each(cells, lanes::sums, |block, left| {
-            tally.entropy.add_fixed::<T>(block.entropy);
-            tally.information.add_fixed::<T>(block.information);
+            tally.entropy.add_fixed::<T>(block.entropy, 1);
+            tally.information.add_fixed::<T>(block.information, 1);
             tally.unknown += block.unknown;
             tally.occupied += block.occupied;
             tally.free += block.free;
@@ -124,11 +125,11 @@ impl<T: Real> Tally<T> {
         tally
     }
 
-    /// Counts one cell whose entropy and information are known beyond the precision of a float.
-    pub(crate) fn add_fixed(&mut self, state: State, (entropy, information): Both) {
-        self.count(state, 1);
-        self.entropy.add_fixed::<T>(entropy);
-        self.information.add_fixed::<T>(information);
+    /// Counts equal cells whose entropy and information are known beyond the precision of a float.
+    pub(crate) fn add_fixed(&mut self, state: State, (entropy, information): Both, count: u64) {
+        self.count(state, count);
+        self.entropy.add_fixed::<T>(entropy, count);
+        self.information.add_fixed::<T>(information, count);
     }
 
     fn count(&mut self, state: State, count: u64) {
@@ -221,13 +222,26 @@ macro_rules! impl_collection {
             }
         }
 
+        impl<T: Real> $sums<T> {
+            fn merged<B: Borrow<Self>>(parts: impl Iterator<Item = B>) -> Self {
+                parts.fold(Self::new(), |mut sum, part| {
+                    sum.merge(part.borrow());
+                    sum
+                })
+            }
+        }
+
         /// That of all cells of the parts of a map, also of a rayon iterator: [`merge`]($sums::merge) by `sum()`.
         impl<T: Real> Sum for $sums<T> {
             fn sum<I: Iterator<Item = Self>>(parts: I) -> Self {
-                parts.fold(Self::new(), |mut sum, part| {
-                    sum.merge(&part);
-                    sum
-                })
+                Self::merged(parts)
+            }
+        }
+
+        /// The same of parts that are kept.
+        impl<'a, T: Real> Sum<&'a Self> for $sums<T> {
+            fn sum<I: Iterator<Item = &'a Self>>(parts: I) -> Self {
+                Self::merged(parts)
             }
         }
     };

@@ -119,7 +119,7 @@ fn check<T: Lane, const FUSED: bool, const ENTROPY: bool>(table: &Table<T>, cell
     }
     let sum = |x: Fixed| {
         let mut sum = ExactSum::new();
-        sum.add_fixed::<f64>(x);
+        sum.add_fixed::<f64>(x, 1);
         sum
     };
     let count = |state| states.iter().filter(|&&x| x == state).count() as u64;

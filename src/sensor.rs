@@ -9,7 +9,8 @@ use num_traits::Zero;
 /// The occupancy that a reading of a range sensor gives to points along its beam.
 ///
 /// Implement it to build maps from a model of your own. Maps take what it gives for exact
-/// ([`sensor`](crate::book::sensor)).
+/// ([`sensor`](crate::book::sensor)). Builders ask for the occupancy where the centres of cells, or samples, are; at 0;
+/// and [`ScanMap::insert`](crate::build::ScanMap::insert) at the side of a cell, too.
 ///
 /// ```
 /// use mean_information::sensor::{InverseSensorModel, SteppedSensor};
@@ -29,9 +30,10 @@ pub trait InverseSensorModel {
     /// A distance (metres) beyond which nothing is observed: `occupancy` is exactly 1/2 at every greater `rho`.
     fn reach(&self) -> Self::Float;
 
-    /// A distance (metres) up to which `occupancy` is exactly what it is at 0: grid builders count those cells at once.
+    /// A distance (metres) up to which `occupancy` is exactly what it is at 0. Grid builders count those cells at once, and
+    /// [`ScanMap::insert`](crate::build::ScanMap::insert) tells them the occupancy at 0 without asking for theirs.
     ///
-    /// Any such distance will do; the default is 0.
+    /// Any such distance will do; the default is 0. One that is too far gives wrong maps.
     fn plateau(&self) -> Self::Float {
         Self::Float::zero()
     }
@@ -112,7 +114,9 @@ impl<T: Real> InverseSensorModel for GaussianSensor<T> {
     /// Free space so far from the obstacle that `p` is below every float, or all of it if `z` is below `σ` so far that `p` is 1.
     fn plateau(&self) -> T {
         let nearest = self.occupancy(T::zero());
-        // e^-r is below half of the smallest number beyond r = n ln 2; four roundings, each by half an ulp of z at most.
+        // e^-r is below half of the smallest number beyond r = n ln 2. Five roundings, of ln 2, its product, the root, the
+        // product with sigma and the difference, move the edge by 2 eps z at most: where p is 0 at 0, sigma times the root
+        // is below z. If it underflows, the smallest normal number makes up for it; a margin that overflows asks the model.
         let n = T::from_parts((1 - T::MIN_EXPONENT) as u64, 0);
         let two = T::one() + T::one();
         let edge = self.range - self.sigma * sqrt(two * ln(two) * n);

@@ -137,7 +137,7 @@ proptest! {
         );
     }
 
-    /// The sums with and without a map, of cells alike and not.
+    /// The sums with and without a map, and of each cell for itself, of cells alike and not.
     #[test]
     fn the_tally_is_that_of_the_map(poses in vec(pose(), 0..4), beams in vec(beam(), 1..9), resolution in 0.05_f64..0.6) {
         let scans: Vec<_> = poses.iter().map(|&pose| scan(pose, &beams)).collect();
@@ -147,6 +147,9 @@ proptest! {
             map.insert(scan, |range| SteppedSensor::new(range, 0.2, 0.375, 1.0)).unwrap();
             prop_assert_eq!(map.tally(), grid(&map).tally());
         }
+        let grid = map.log_odds().unwrap();
+        let cells = grid.cells().iter().map(|&l| mean_information::cell::Cell::from_log_odds(l).unwrap());
+        prop_assert_eq!(map.tally(), cells.collect());
     }
 
     #[test]

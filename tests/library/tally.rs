@@ -96,6 +96,17 @@ proptest! {
     }
 
     #[test]
+    fn parts_add_up_whether_they_are_kept_or_not(map in vec(occupancy(), 0..200), part in 1_usize..70) {
+        let parts: Vec<_> = map.chunks(part).map(tally).collect();
+        let informations: Vec<_> = parts.iter().map(Information::from).collect();
+        let whole = tally(&map);
+        prop_assert_eq!(&parts.iter().sum::<Tally<f64>>(), &whole);
+        prop_assert_eq!(&informations.iter().sum::<Information<f64>>(), &Information::from(&whole));
+        prop_assert_eq!(&informations.into_iter().sum::<Information<f64>>(), &Information::from(&whole));
+        prop_assert_eq!(parts.into_iter().sum::<Tally<f64>>(), whole);
+    }
+
+    #[test]
     fn counting_many_is_counting_each(p in occupancy(), count in 2_u64..50) {
         let mut many = Tally::new();
         many.add_many(cell(p), count);

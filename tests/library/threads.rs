@@ -60,6 +60,27 @@ fn expected_maps() {
     assert!(hypotheses.with_max_cells(10).par_expected_tally().is_err());
 }
 
+/// In one row, in one column, and without a cell.
+#[test]
+fn expected_maps_of_any_shape() {
+    for [width, height] in [[5000, 1], [1, 5000], [0, 0], [1, 1]] {
+        let map = |particle: usize| {
+            let cells = (0..width * height).map(|k| ((k / 9 * 7 + k % 50 / 49 * particle) % 256) as u8 as i8);
+            let geometry = Geometry::new(0.05, [0.0; 2]).unwrap();
+            Grid::<MrptLogOdds>::new(width, height, geometry, cells.collect()).unwrap()
+        };
+        let maps: Vec<_> = (0..5).map(map).collect();
+        let hypotheses = Hypotheses::new(&maps, &[0.3, 0.1, 0.7, 0.2, 0.05]).unwrap();
+        let tally = hypotheses.expected_tally().unwrap();
+        assert_eq!(
+            (tally.cells(), &tally),
+            ((width * height) as u64, hypotheses.expected_map().unwrap().tally())
+        );
+        let by_threads = by_threads(|| hypotheses.par_expected_tally());
+        assert!(by_threads.into_iter().all(|by_threads| by_threads.unwrap() == tally));
+    }
+}
+
 #[test]
 fn maps_of_scans() {
     let mut map = ScanMap::<f64>::new(0.02).unwrap();

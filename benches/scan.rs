@@ -126,6 +126,9 @@ fn expected(criterion: &mut Criterion) {
     run(criterion, "MRPT's bytes", 0.7907388516355743, bytes);
 }
 
+/// What a particle stores of a cell.
+type Stored<'a> = &'a dyn Fn(usize, usize) -> i8;
+
 /// Twenty particles of 1000 x 1000 cells in MRPT's bytes.
 fn agreement(criterion: &mut Criterion) {
     const SIDE: usize = 1000;
@@ -133,9 +136,9 @@ fn agreement(criterion: &mut Criterion) {
     // Whether a particle has its own opinion of a cell: one of twenty in one of a hundred cells.
     let own = |particle: usize, k: usize| {
         let hash = (k as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40;
-        hash % 100 == 0 && hash / 100 % 20 == particle as u64
+        hash.is_multiple_of(100) && hash / 100 % 20 == particle as u64
     };
-    let cases: [(&str, &dyn Fn(usize, usize) -> i8); 5] = [
+    let cases: [(&str, Stored); 5] = [
         ("all unknown", &|_, _| 0),
         ("all agree, in runs", &|_, k| common(k)),
         ("all agree, each cell for itself", &|_, k| (k * 89 % 251) as i8),

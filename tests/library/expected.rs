@@ -246,7 +246,7 @@ fn runs_of_agreement_are_counted_as_their_cells() {
                 (few[(5.0 * random.uniform()) as usize], (100.0 * random.uniform()) as usize);
             common.resize((common.len() + length).min(width * height), value);
         }
-        let maps: Vec<Map> = (0..1 + round % 4)
+        let maps: Vec<Map> = (0..=round % 4)
             .map(|map| {
                 let mut cells = common.clone();
                 for _ in 0..(20 * map) {

@@ -351,6 +351,21 @@ fn certainties_in_the_log_linear_pool() {
     assert!(matches!(pool([infinite, -infinite], [3.0, 5.0]), Err(Error::Cell { row: 0, column: 0, .. })));
 }
 
+/// Runs on which all agree, between cells on which they do not; and the place of a contradiction.
+#[test]
+fn the_pool_of_maps_that_mostly_agree() {
+    let infinite = f64::INFINITY;
+    let map = |differing: f64, last: f64| {
+        let cells = vec![1.5, 1.5, 1.5, 0.0, differing, -2.5, -2.5, last, 0.75];
+        Grid::<LogOdds<f64>>::new(3, 3, Geometry::new(0.5, [0.0; 2]).unwrap(), cells).unwrap()
+    };
+    let pool = |maps: [Grid<LogOdds<f64>>; 2]| Hypotheses::new(&maps, &[3.0, 5.0]).unwrap().log_linear_pool();
+    let pooled = pool([map(2.0, 4.0), map(-6.0, 4.0)]).unwrap();
+    assert_eq!(pooled.cells(), [1.5, 1.5, 1.5, 0.0, -3.0, -2.5, -2.5, 4.0, 0.75]);
+    let refused = pool([map(2.0, infinite), map(2.0, -infinite)]).unwrap_err();
+    assert!(matches!(refused, Error::Cell { row: 2, column: 1, .. }), "{refused}");
+}
+
 /// In MRPT's encoding the pool is a mean of bytes: `-16 l`.
 #[test]
 fn the_pool_of_bytes() {

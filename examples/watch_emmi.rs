@@ -129,7 +129,7 @@ fn watch(steps: u32) -> Result<Vec<[f64; 2]>, Error> {
         let maps =
             particles.iter().map(|particle| particle.map.probabilities()).collect::<Result<Vec<_>, _>>()?;
         let hypotheses = Hypotheses::new(&maps, &weights(&particles))?;
-        let emmi = hypotheses.expected_map()?.tally().mean_information();
+        let emmi = hypotheses.expected_tally()?.mean_information();
         run.push([emmi, hypotheses.mean_of_mean_information()]);
 
         let corner = if step % STEPS == 0 { TAU / 4.0 } else { 0.0 };

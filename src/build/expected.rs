@@ -106,19 +106,10 @@ impl<'a, E: Encoding> Hypotheses<'a, E> {
         let alignment = self.alignment()?;
         let mut cells = self.room(&alignment)?;
         let stack = Stack::new(self.maps, &alignment);
-        let mut marginals = Marginals::<E>::new(&self.weights, stack.cells());
-        stack.each_run(0..stack.cells(), |run| {
-            match run {
-                Run::Agreed(stored, count) => {
-                    marginals.add_agreed(stored, count as u64);
-                    cells.resize(cells.len() + count, marginals::nearest::<E>(stored));
-                }
-                Run::Mixed(stored) => cells.push(marginals.add(stored)),
-            }
-            Ok(())
-        })?;
+        let tally =
+            self.sums(&stack, 0..stack.cells(), |mean, count| cells.resize(cells.len() + count, mean))?;
         let Alignment { geometry, width, height, .. } = alignment;
-        Ok(ExpectedMap { grid: Grid::new(width, height, geometry, cells)?, tally: marginals.into_tally() })
+        Ok(ExpectedMap { grid: Grid::new(width, height, geometry, cells)?, tally })
     }
 
     /// The sums over the expected map, without the map: the bits of [`ExpectedMap::tally`].
@@ -144,7 +135,7 @@ impl<'a, E: Encoding> Hypotheses<'a, E> {
     pub fn expected_tally(&self) -> Result<Tally<E::Float>, Error> {
         let alignment = self.alignment()?;
         let stack = Stack::new(self.maps, &alignment);
-        self.tally_of(&stack, 0..stack.cells())
+        self.sums(&stack, 0..stack.cells(), |_, _| ())
     }
 
     /// [`Self::expected_tally`] by as many threads as rayon has: the same bits for any number of them.
@@ -165,17 +156,24 @@ impl<'a, E: Encoding> Hypotheses<'a, E> {
     pub fn par_expected_tally(&self) -> Result<Tally<E::Float>, Error> {
         let alignment = self.alignment()?;
         let stack = Stack::new(self.maps, &alignment);
-        parts::for_threads(stack.cells()).map(|cells| self.tally_of(&stack, cells)).sum()
+        parts::for_threads(stack.cells()).map(|cells| self.sums(&stack, cells, |_, _| ())).sum()
     }
 
-    fn tally_of(&self, stack: &Stack<E>, cells: Range<u64>) -> Result<Tally<E::Float>, Error> {
+    /// The sums over these cells; `each` is handed their means in order, and of how many neighbours.
+    fn sums(
+        &self,
+        stack: &Stack<E>,
+        cells: Range<u64>,
+        mut each: impl FnMut(E::Float, usize),
+    ) -> Result<Tally<E::Float>, Error> {
         let mut marginals = Marginals::<E>::new(&self.weights, cells.end - cells.start);
         stack.each_run(cells, |run| {
             match run {
-                Run::Agreed(stored, count) => marginals.add_agreed(stored, count as u64),
-                Run::Mixed(stored) => {
-                    marginals.add(stored);
+                Run::Agreed(stored, count) => {
+                    marginals.add_agreed(stored, count as u64);
+                    each(marginals::nearest::<E>(stored), count);
                 }
+                Run::Mixed(stored) => each(marginals.add(stored), 1),
             }
             Ok(())
         })?;

@@ -199,7 +199,7 @@ impl Histogram {
 
     /// The tally of the cells in an encoding, passing over values that it does not allow: the bits of
     /// [`Encoding::tally`] of all cells counted. At most 256 exact terms are added (Eqs. 2 to 4; proved,
-    /// [`rounding`](crate::book::rounding)).
+    /// [`sums`](crate::book::sums)).
     ///
     /// An encoding of your own in 8 bits has a fast [`Encoding::tally`] by
     /// `Histogram::from_cells(cells).tally::<Self>()`.

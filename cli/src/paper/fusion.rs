@@ -51,10 +51,10 @@ impl Scans {
     }
 
     /// The map of the first scan with the second in it, at this pose.
-    fn fused(&self, first: &ScanMap<f64>, second: Pose) -> Result<Grid<LogOdds<f64>>, Error> {
+    fn fused(&self, first: &ScanMap<f64>, second: Pose) -> Result<ScanMap<f64>, Error> {
         let mut map = first.clone();
         insert(&mut map, &self.readings[1].at(second)?, SIGMA)?;
-        map.log_odds()
+        Ok(map)
     }
 
     /// The four maps of the figure.
@@ -62,7 +62,7 @@ impl Scans {
         let first = self.alone(0)?;
         let aligned = self.fused(&first, self.poses[1])?;
         let misaligned = self.fused(&first, self.misplaced(MISPLACED)?)?;
-        Ok([first.log_odds()?, self.alone(1)?.log_odds()?, aligned, misaligned])
+        Ok([first.log_odds()?, self.alone(1)?.log_odds()?, aligned.log_odds()?, misaligned.log_odds()?])
     }
 
     /// How many cells both scans observe, but for exactly opposite log-odds, if the second is misplaced: with another

@@ -7,12 +7,12 @@
 #![allow(clippy::disallowed_methods)]
 #![allow(missing_docs)]
 
-use mean_information::build::CartesianRoom;
 use mean_information::cell::{
     Cell, entropy, information, information_from_log_odds, occupancy_from_log_odds,
 };
 use mean_information::elementary::{exp, ln, sqrt};
 use mean_information::limit::{Weight, closed_form};
+use mean_information::room::CartesianRoom;
 use mean_information::sensor::{GaussianSensor, InverseSensorModel, SteppedSensor};
 use mean_information::{ExactSum, Real};
 use std::hint::black_box;

@@ -8,12 +8,9 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use mean_information::Real;
 use mean_information::operations::{Answer, Argument, OPERATIONS, Operation, Shape, Value};
 use mean_information::vectors::FILES;
+use mean_information_test_support::exact;
 use serde_json::Value as Json;
 use std::hint::black_box;
-
-#[path = "../tests/vectors/exact.rs"]
-#[allow(dead_code)]
-mod exact;
 
 /// The tests of an operation in `f64` that have one right answer: arguments and answer, to a few digits.
 fn tests(operation: &Operation) -> Vec<(Vec<Value<f64>>, f64)> {

@@ -7,9 +7,10 @@
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use mean_information::Error;
-use mean_information::build::{Beam, Hypotheses, Pose, Scan, ScanMap};
+use mean_information::expected::Hypotheses;
 use mean_information::map::encoding::{MrptLogOdds, Probability};
 use mean_information::map::{Encoding, Geometry, Grid};
+use mean_information::scan::{Beam, Pose, Scan, ScanMap};
 use mean_information::sensor::{GaussianSensor, InverseSensorModel, SteppedSensor};
 use std::hint::black_box;
 

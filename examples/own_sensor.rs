@@ -2,9 +2,9 @@
 //! `cargo run --example own_sensor`.
 
 use mean_information::Error;
-use mean_information::build::{CartesianRoom, PolarRoom};
 use mean_information::limit::{Piece, RadialModel, Weight, adaptive, rigorous};
 use mean_information::quadrature::{adaptive::GaussKronrod, rigorous::Rigorous};
+use mean_information::room::{CartesianRoom, PolarRoom};
 use mean_information::scalar::Scalar;
 use mean_information::sensor::InverseSensorModel;
 

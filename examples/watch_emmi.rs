@@ -2,9 +2,10 @@
 //! `cargo run --release --example watch_emmi`.
 
 use mean_information::Error;
-use mean_information::build::{Beam, Direction, Hypotheses, Pose, Scan, ScanMap};
 use mean_information::elementary::{exp, ln};
+use mean_information::expected::Hypotheses;
 use mean_information::map::{Grid, encoding::Probability};
+use mean_information::scan::{Beam, Direction, Pose, Scan, ScanMap};
 use mean_information::sensor::GaussianSensor;
 use std::f64::consts::TAU;
 

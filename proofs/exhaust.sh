@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 output=$(mktemp)
 trap 'rm -f "$output"' EXIT
 started=$(date +%s)
-cargo test --release --package mean-information --test single_precision -- --ignored --nocapture --test-threads 1 >"$output"
+cargo test --release --package mean-information --lib single_precision -- --ignored --nocapture --test-threads 1 >"$output"
 cargo test --release --package mean-information --lib lanes -- --ignored --nocapture >>"$output"
 grep -o 'near-tie .*' "$output" | sort >vectors/generate/near_ties_f32.txt
 echo "$(date -u +%F), commit $(git describe --always --dirty), $(($(date +%s) - started)) s:"

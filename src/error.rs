@@ -79,9 +79,14 @@ pub enum Error {
 }
 
 impl Error {
-    /// An [`Error::OutOfRange`].
+    /// Creates an [`Error::OutOfRange`].
     pub(crate) fn out_of_range(what: &'static str, value: f64, allowed: &'static str) -> Self {
         Self::OutOfRange { what, value, allowed }
+    }
+
+    /// Creates the [`Error::TooManyCells`] of a map that exceeds its limit.
+    pub(crate) fn too_many_cells(cells: u128, limit: u64) -> Self {
+        Self::TooManyCells { what: "the map", count: cells as f64, limit }
     }
 }
 

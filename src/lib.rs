@@ -30,7 +30,7 @@
 //! # Where to begin
 //! * **You have a map**: [`map::Grid`] for what mapping programs store, [`Tally::from_occupancies`] for any list of
 //!   occupancies, [`map::Histogram`] for bytes as they are read. For files there is the command `meaninfo`.
-//! * **You have a particle filter**: [`build::Hypotheses`], whose expected map's mean information is the EMMI.
+//! * **You have a particle filter**: [`expected::Hypotheses`], whose expected map's mean information is the EMMI.
 //! * **You have a sensor model**: [`sensor::InverseSensorModel`] for grids, [`limit::RadialModel`] for their limit.
 //! * **You write a port**: [`operations`], and [`book::porting`].
 //! * **You read the report**: [`book`], and [`book::paper`] for where each of its lines is.
@@ -48,7 +48,10 @@
 //! | [`tally`] | the exact, mergeable sums over a map | 2, 4 |
 //! | [`map`] | grids, cell encodings, pooling | |
 //! | [`sensor`] | inverse sensor models: what a range reading says of a point | 5 |
-//! | [`build`] | maps of a circular room, maps from scans, fusion, the expected map of a filter's particles | 4, 5 |
+//! | [`room`] | maps of a circular room, polar and Cartesian | 4, 5 |
+//! | [`scan`] | maps from range scans | |
+//! | [`fusion`] | observations of one cell, fused | |
+//! | [`expected`] | the expected map of a filter's particles | |
 //! | [`limit`] | what the mean information of one scan tends to as cells shrink | 6, 7 |
 //! | [`estimate`] | results with an estimated error, and results with a proved enclosure | |
 //! | [`scalar`] | what integrands are written in: floats, intervals, rectangles | |
@@ -91,19 +94,22 @@ extern crate alloc;
 extern crate std;
 
 pub mod book;
-pub mod build;
 pub mod cell;
 pub mod elementary;
 mod error;
 pub mod estimate;
+pub mod expected;
+pub mod fusion;
 pub mod interval;
 pub mod limit;
 pub mod map;
 pub mod operations;
 pub mod quadrature;
 pub mod real;
+pub mod room;
 mod rounded;
 pub mod scalar;
+pub mod scan;
 pub mod sensor;
 pub mod tally;
 

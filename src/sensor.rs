@@ -10,7 +10,7 @@ use num_traits::Zero;
 ///
 /// Implement it to build maps from a model of your own. Maps take what it gives for exact
 /// ([`sensor`](crate::book::sensor)). Builders ask for the occupancy where the centres of cells, or samples, are; at 0;
-/// and [`ScanMap::insert`](crate::build::ScanMap::insert) at the side of a cell, too.
+/// and [`ScanMap::insert`](crate::scan::ScanMap::insert) at the side of a cell, too.
 ///
 /// ```
 /// use mean_information::sensor::{InverseSensorModel, SteppedSensor};
@@ -31,7 +31,7 @@ pub trait InverseSensorModel {
     fn reach(&self) -> Self::Float;
 
     /// A distance (metres) up to which `occupancy` is exactly what it is at 0. Grid builders count those cells at once, and
-    /// [`ScanMap::insert`](crate::build::ScanMap::insert) tells them the occupancy at 0 without asking for theirs.
+    /// [`ScanMap::insert`](crate::scan::ScanMap::insert) tells them the occupancy at 0 without asking for theirs.
     ///
     /// Any such distance will do; the default is 0. One that is too far gives wrong maps.
     fn plateau(&self) -> Self::Float {

@@ -1,6 +1,6 @@
 //! Tallies that travel as text (feature `serde`).
 
-use mean_information::build::Hypotheses;
+use mean_information::expected::Hypotheses;
 use mean_information::map::encoding::{Percent, Probability};
 use mean_information::map::{Geometry, Grid, Histogram};
 use mean_information::{Information, Tally, cell::Cell};

@@ -1,12 +1,12 @@
 //! The radial limit of one room. Arb, mpmath and QUADPACK come from `limit.py`, a child process.
 
 use crate::program::{Timed, output_of, python};
-use crate::timing::least_time;
 use mean_information::limit::{Weight, adaptive, closed_form, rigorous};
 use mean_information::quadrature::adaptive::{GaussKronrod, Rule};
 use mean_information::quadrature::rigorous::Rigorous;
 use mean_information::scalar::Scalar;
 use mean_information::sensor::GaussianSensor;
+use mean_information_test_support::timing::least_time;
 use std::cell::Cell;
 use std::hint::black_box;
 

@@ -8,7 +8,6 @@
 mod limit;
 mod maps;
 mod program;
-mod timing;
 
 fn main() {
     // Cargo adds `--bench`.

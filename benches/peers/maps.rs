@@ -1,8 +1,8 @@
 //! The mean information of large maps. C, C++ and Python read the same cells from a file.
 
 use crate::program::{Timed, beside, output_of, python};
-use crate::timing::least_time;
 use mean_information::map::encoding::{Encoding, MrptLogOdds, Probability};
+use mean_information_test_support::timing::least_time;
 use std::fs;
 use std::hint::black_box;
 use std::path::{Path, PathBuf};

@@ -1,8 +1,9 @@
 //! Scans inserted into maps, and expected maps.
 
-use mean_information::build::{Beam, Hypotheses, Pose, Scan, ScanMap, weighted_mean};
+use mean_information::expected::{Hypotheses, weighted_mean};
 use mean_information::map::encoding::Probability;
 use mean_information::map::{Geometry, Grid};
+use mean_information::scan::{Beam, Pose, Scan, ScanMap};
 use mean_information::sensor::{GaussianSensor, SteppedSensor};
 use mean_information::{Error, Real};
 

@@ -1,7 +1,7 @@
 //! Rooms, and their bounds.
 
-use mean_information::build::{CartesianRoom, PolarRoom, Sampling};
 use mean_information::limit::{Weight, bounds, closed_form};
+use mean_information::room::{CartesianRoom, PolarRoom, Sampling};
 use mean_information::sensor::GaussianSensor;
 use mean_information::{Error, Real, Tally};
 

@@ -30,7 +30,7 @@ const BEND: Up = Up(6.7619);
 
 /// How far the mean information `Ī_h` of a polar map of the circular room is from its limit `Ī`, the radial one (Eq. 7), at
 /// most; in bits per cell, and not above 1. The map has rings of width `resolution`, `h` (metres), sampled at their centres:
-/// [`PolarRoom`](crate::build::PolarRoom).
+/// [`PolarRoom`](crate::room::PolarRoom).
 ///
 /// ```text
 /// |Ī_h - Ī| <= (E_I + Ī (E_N + N_½)) / (x - E_N - N_½),
@@ -47,7 +47,7 @@ const BEND: Up = Up(6.7619);
 /// [`Error::OutOfRange`] if the resolution is not positive and finite.
 ///
 /// ```
-/// use mean_information::build::PolarRoom;
+/// use mean_information::room::PolarRoom;
 /// use mean_information::limit::{Weight, bounds, closed_form};
 /// use mean_information::sensor::GaussianSensor;
 /// let sensor = GaussianSensor::new(2.0_f64, 0.2)?;
@@ -76,7 +76,7 @@ pub fn polar<T: Real>(sensor: &GaussianSensor<T>, resolution: T) -> Result<T, Er
 /// That of [`polar`].
 ///
 /// ```
-/// use mean_information::build::PolarRoom;
+/// use mean_information::room::PolarRoom;
 /// use mean_information::limit::bounds;
 /// use mean_information::sensor::GaussianSensor;
 /// let sensor = GaussianSensor::new(2.0_f64, 0.2)?;
@@ -96,7 +96,7 @@ pub fn polar_with_count<T: Real>(
 
 /// How far the mean information `Ī_h` of a Cartesian grid of the circular room is from its limit `Ī`, the area limit, at most;
 /// in bits per cell, and not above 1. Its cells are of side `resolution`, `h` (metres), sampled at their centres, wherever
-/// they lie: [`CartesianRoom`](crate::build::CartesianRoom).
+/// they lie: [`CartesianRoom`](crate::room::CartesianRoom).
 ///
 /// ```text
 /// |Ī_h - Ī| <= (E_I + Ī (E_N + N_½)) / (π x^2 - E_N - N_½),
@@ -117,7 +117,7 @@ pub fn polar_with_count<T: Real>(
 /// [`Error::OutOfRange`] if the resolution is not positive and finite.
 ///
 /// ```
-/// use mean_information::build::CartesianRoom;
+/// use mean_information::room::CartesianRoom;
 /// use mean_information::limit::{Weight, bounds, closed_form};
 /// use mean_information::sensor::GaussianSensor;
 /// let sensor = GaussianSensor::new(2.0_f64, 0.2)?;
@@ -146,7 +146,7 @@ pub fn cartesian<T: Real>(sensor: &GaussianSensor<T>, resolution: T) -> Result<T
 /// That of [`cartesian`].
 ///
 /// ```
-/// use mean_information::build::CartesianRoom;
+/// use mean_information::room::CartesianRoom;
 /// use mean_information::limit::bounds;
 /// use mean_information::sensor::GaussianSensor;
 /// let sensor = GaussianSensor::new(2.0_f64, 0.2)?;

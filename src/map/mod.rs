@@ -5,6 +5,7 @@ pub mod encoding;
 mod geometry;
 mod grid;
 mod histogram;
+pub(crate) mod parts;
 mod polar;
 mod pooling;
 #[cfg(feature = "serde")]

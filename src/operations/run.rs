@@ -1,13 +1,15 @@
 //! What each operation computes.
 
 use super::{Answer, Operation, Refusal, Value};
-use crate::build::{CartesianRoom, Hypotheses, PolarRoom, fuse};
 use crate::cell::{Cell, occupancy_from_log_odds};
 use crate::error::{Error, finite, positive};
+use crate::expected::Hypotheses;
+use crate::fusion::fuse;
 use crate::limit::{Weight, closed_form};
 use crate::map::encoding::Probability;
 use crate::map::{Geometry, Grid};
 use crate::real::Real;
+use crate::room::{CartesianRoom, PolarRoom};
 use crate::sensor::{GaussianSensor, InverseSensorModel};
 use crate::tally::Tally;
 use alloc::vec::Vec;

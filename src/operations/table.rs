@@ -145,7 +145,7 @@ pub const OPERATIONS: &[Operation] = &[
         CELLS,
         "each cell from 0 to 1; not 0 and 1 together",
         "p = prod p_i / (prod p_i + prod (1 - p_i)): log-odds add; 1/2 without observations",
-        "build::fuse",
+        "fusion::fuse",
     ),
     summed(rounded(
         Which::ExpectedMeanInformation,

@@ -213,7 +213,5 @@ fn settle<T: Real>(value: Enclosure, is_above: impl FnOnce(Midpoint) -> bool) ->
 
 #[cfg(test)]
 mod tests;
-/// The oracle of the tests of all `f32`, which takes any number.
 #[cfg(test)]
-#[path = "../../tests/single_precision/wide.rs"]
 pub(crate) mod wide;

@@ -1,6 +1,8 @@
 //! The two steps of Ziv's strategy: the enclosures hold the values, the comparison gives the same floats, and the
 //! second step is as rare as stated.
 
+mod single_precision;
+
 use super::fixed::scale_117;
 use super::wide::{SCALE, Wide};
 use super::*;

@@ -3,13 +3,13 @@
 mod edges;
 mod relations;
 
-use super::battery::{Case, cases};
 use super::common::power;
 use mean_information::Real;
 use mean_information::cell::entropy;
 use mean_information::elementary::exp;
 use mean_information::estimate::{Estimate, Status};
 use mean_information::quadrature::adaptive::{GaussKronrod, Rule, graded};
+use mean_information_test_support::battery::{Case, cases};
 use proptest::prelude::*;
 
 /// The errors claimed on the battery, by every rule at several tolerances, are all above the true ones.

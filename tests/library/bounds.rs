@@ -1,10 +1,10 @@
 //! The proved bounds between grids and their limits, on rooms of every kind.
 
 use super::common::power;
-use mean_information::build::{CartesianRoom, PolarRoom};
 use mean_information::cell::entropy;
 use mean_information::elementary::{exp, ln, sqrt};
 use mean_information::limit::{Weight, bounds, closed_form};
+use mean_information::room::{CartesianRoom, PolarRoom};
 use mean_information::sensor::GaussianSensor;
 use mean_information::{Error, Real};
 use proptest::prelude::*;

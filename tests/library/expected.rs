@@ -2,8 +2,9 @@
 
 use super::common::{mirrorable, occupancy, power};
 use mean_information::Error;
-use mean_information::build::{ExpectedMap, Hypotheses, fuse, weighted_mean};
 use mean_information::cell::{information, occupancy_from_log_odds};
+use mean_information::expected::{ExpectedMap, Hypotheses, weighted_mean};
+use mean_information::fusion::fuse;
 use mean_information::map::encoding::{LogOdds, MrptLogOdds, Probability};
 use mean_information::map::{Geometry, Grid};
 use num_bigint::BigInt;

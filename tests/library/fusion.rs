@@ -2,8 +2,8 @@
 
 use super::common::{mirrorable, occupancy};
 use mean_information::Error;
-use mean_information::build::fuse;
 use mean_information::cell::{information, log_odds_from_occupancy, occupancy_from_log_odds};
+use mean_information::fusion::fuse;
 use proptest::collection::vec;
 use proptest::prelude::*;
 

@@ -1,14 +1,14 @@
 //! The table of guarantees: `docs/guarantees.md` says the same, and what it cites is there.
 
-use mean_information::build::{CartesianRoom, PolarRoom};
 use mean_information::interval::Interval;
 use mean_information::quadrature::rigorous::Rigorous;
+use mean_information::room::{CartesianRoom, PolarRoom};
 use mean_information::scalar::Scalar;
 use mean_information::sensor::{GaussianSensor, InverseSensorModel};
-use mean_information::{ExactSum, Information, Tally, build, cell, elementary, limit, map};
+use mean_information::{ExactSum, Information, Tally, cell, elementary, expected, fusion, limit, map};
 use std::path::Path;
 
-type Particles<'a> = build::Hypotheses<'a, map::encoding::LogOdds<f64>>;
+type Particles<'a> = expected::Hypotheses<'a, map::encoding::LogOdds<f64>>;
 
 /// How a bound is known.
 #[derive(Clone, Copy, Debug)]
@@ -55,9 +55,9 @@ pub(crate) fn guarantees() -> Vec<Guarantee> {
         map::Grid::<map::encoding::Percent>::pooled => "Grid::pooled", 0.5, Proved;
         GaussianSensor::<f64>::occupancy => "GaussianSensor::occupancy", 0.5, Proved;
         GaussianSensor::<f64>::reach => "GaussianSensor::reach", 2.0, Proved;
-        build::fuse::<f64> => "build::fuse", 0.5, Proved;
-        build::weighted_mean::<f64> => "build::weighted_mean", 0.5, Proved;
-        build::ExpectedMap::<f64>::grid => "ExpectedMap::grid", 0.5, Proved;
+        fusion::fuse::<f64> => "fusion::fuse", 0.5, Proved;
+        expected::weighted_mean::<f64> => "expected::weighted_mean", 0.5, Proved;
+        expected::ExpectedMap::<f64>::grid => "ExpectedMap::grid", 0.5, Proved;
         Particles::log_linear_pool => "Hypotheses::log_linear_pool", 0.5, Proved;
         limit::rigorous::<GaussianSensor<f64>> => "limit::rigorous", 0.0, Proved;
         limit::closed_form::<f64> => "limit::closed_form", 0.501, Proved;

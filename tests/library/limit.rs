@@ -1,13 +1,13 @@
 //! The limit, three ways: closed form, adaptive and rigorous must agree, for rooms and for models of the user's own.
 
 use super::common::Random;
-use mean_information::build::PolarRoom;
 use mean_information::cell::{information, occupancy_from_log_odds};
 use mean_information::elementary::{exp, ln};
 use mean_information::estimate::Status;
 use mean_information::limit::{Piece, RadialModel, RepeatedScans, Weight, adaptive, closed_form, rigorous};
 use mean_information::quadrature::adaptive::{GaussKronrod, Rule};
 use mean_information::quadrature::rigorous::Rigorous;
+use mean_information::room::PolarRoom;
 use mean_information::scalar::Scalar;
 use mean_information::sensor::{GaussianSensor, InverseSensorModel, SteppedSensor};
 use mean_information::{Error, Real};

@@ -1,12 +1,10 @@
 //! The library against its definition: properties, relations and special cases.
 
 mod adaptive;
-mod battery;
 mod bounds;
 mod cell;
 mod closed_form;
 mod common;
-mod digest;
 mod elementary;
 mod expected;
 mod fusion;

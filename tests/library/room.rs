@@ -3,11 +3,11 @@
 mod refused;
 
 use super::common::power;
-use mean_information::build::{CartesianRoom, PolarRoom, Sampling};
 use mean_information::cell::Cell;
 use mean_information::limit::{Weight, bounds, closed_form};
 use mean_information::map::encoding::Probability;
 use mean_information::map::{Geometry, Grid};
+use mean_information::room::{CartesianRoom, PolarRoom, Sampling};
 use mean_information::sensor::{GaussianSensor, InverseSensorModel, SteppedSensor};
 use mean_information::{Real, Tally};
 use num_bigint::BigUint;

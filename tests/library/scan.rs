@@ -3,10 +3,10 @@
 mod refused;
 
 use super::common::power;
-use mean_information::build::{Beam, Direction, Pose, Scan, ScanMap};
 use mean_information::cell::log_odds_from_occupancy;
 use mean_information::map::encoding::LogOdds;
 use mean_information::map::{Geometry, Grid, encoding::Probability};
+use mean_information::scan::{Beam, Direction, Pose, Scan, ScanMap};
 use mean_information::sensor::{GaussianSensor, InverseSensorModel, SteppedSensor};
 use mean_information::{Error, Real, Tally};
 use proptest::collection::vec;

@@ -1,8 +1,10 @@
 //! Any number of threads: the same bits.
 
-use mean_information::build::{Beam, CartesianRoom, Hypotheses, Pose, Scan, ScanMap};
+use mean_information::expected::Hypotheses;
 use mean_information::map::encoding::{Encoding, MrptLogOdds, Probability};
 use mean_information::map::{Geometry, Grid, Histogram};
+use mean_information::room::CartesianRoom;
+use mean_information::scan::{Beam, Pose, Scan, ScanMap};
 use mean_information::sensor::GaussianSensor;
 use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;

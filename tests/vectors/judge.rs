@@ -1,8 +1,8 @@
 //! Whether an answer is right: decided in integers of any size, from the decimals as they are written.
 
-use super::exact::Exact;
 use mean_information::Real;
 use mean_information::operations::{Answer, Refusal};
+use mean_information_test_support::exact::Exact;
 use serde_json::Value as Json;
 
 /// The midpoints of a non-negative float and its neighbours; there is none below 0.
@@ -23,7 +23,7 @@ fn is_nearest<T: Real>(x: T, lo: &Exact, hi: &Exact) -> bool {
     let (below, above) = midpoints(x);
     let even = x.parts().0.is_multiple_of(2);
     let inside = |order: std::cmp::Ordering| order.is_lt() || order.is_eq() && even;
-    x.is_sign_positive() && below.is_none_or(|below| inside(below.cmp(lo))) && inside(hi.cmp(&above))
+    x.is_sign_positive() && below.is_none_or(|below| inside(below.compare(lo))) && inside(hi.compare(&above))
 }
 
 /// Whether every number of the enclosure is within thousandths of an ulp of `x >= 0`.
@@ -31,15 +31,15 @@ fn is_near<T: Real>(x: T, lo: &Exact, hi: &Exact, milliulps: u64) -> bool {
     let (m, e) = x.parts();
     let end = |m: u64| Exact { m: m.into(), binary: e, decimal: -3 };
     x.is_sign_positive()
-        && end((1000 * m).saturating_sub(milliulps)).cmp(lo).is_le()
-        && hi.cmp(&end(1000 * m + milliulps)).is_le()
+        && end((1000 * m).saturating_sub(milliulps)).compare(lo).is_le()
+        && hi.compare(&end(1000 * m + milliulps)).is_le()
 }
 
 /// The ends of an enclosure.
 fn ends(want: &Json) -> Option<(Exact, Exact)> {
     let end = |name: &str| want[name].as_str().and_then(Exact::decimal);
     let (lo, hi) = (end("lo")?, end("hi")?);
-    assert!(lo.cmp(&hi).is_le(), "{want}: an enclosure that holds nothing");
+    assert!(lo.compare(&hi).is_le(), "{want}: an enclosure that holds nothing");
     Some((lo, hi))
 }
 

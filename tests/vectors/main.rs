@@ -1,12 +1,11 @@
 //! The vectors against this crate: every operation in both formats, each answer as near as its function promises.
 
-mod exact;
 mod judge;
 mod lint;
 
-use exact::float;
 use mean_information::Real;
 use mean_information::operations::{OPERATIONS, Operation, Outcome, Shape, Value};
+use mean_information_test_support::exact::float;
 use serde_json::Value as Json;
 use std::collections::HashSet;
 use std::fs;

@@ -30,7 +30,7 @@ use switches::Switched;
 
 const PACKAGE: [&str; 4] = ["--package", "mean-information", "--features", "serde,vectors,rayon"];
 /// Not `same_bits`, which compiles the source.
-const SUITES: [&str; 11] = [
+const SUITES: [&str; 9] = [
     "--lib",
     "--test",
     "library",
@@ -38,8 +38,6 @@ const SUITES: [&str; 11] = [
     "portable",
     "--test",
     "vectors",
-    "--test",
-    "single_precision",
     "--test",
     "proofs",
 ];

@@ -2,16 +2,11 @@
 //! tables.
 
 use super::*;
-use num_bigint::BigUint;
+use num_bigint::BigInt;
+use num_rational::BigRational;
 use proptest::prelude::*;
 use serde_json::Value;
 use std::{env, format, fs};
-
-/// The reader of the vectors.
-#[path = "../../../tests/vectors/exact.rs"]
-mod exact;
-
-use exact::{Exact, float};
 
 const WEIGHTS: [(Weight, &str, &[Panel; PANELS]); 2] =
     [(Weight::Radial, "radial", &tables::RADIAL), (Weight::Area, "area", &tables::AREA)];
@@ -19,9 +14,31 @@ const WEIGHTS: [(Weight, &str, &[Panel; PANELS]); 2] =
 /// What `proofs/limit_certify.py` prints of the tables that it proves. If they change, run it, and record it in RESULTS.md.
 const CERTIFIED: u64 = 0xf7ac_621b_7b15_9dba;
 
+/// The number `m 2^e`.
+fn dyadic(m: impl Into<BigInt>, e: i32) -> BigRational {
+    let power = BigInt::from(1) << e.unsigned_abs();
+    if e < 0 { BigRational::new(m.into(), power) } else { (m.into() * power).into() }
+}
+
+/// The number that a decimal fraction such as `0.125` of the vectors stands for.
+fn decimal(text: &str) -> BigRational {
+    let (whole, fraction) = text.split_once('.').expect("a decimal fraction");
+    let digits: BigInt = format!("{whole}{fraction}").parse().expect("digits");
+    BigRational::new(digits, BigInt::from(10).pow(fraction.len() as u32))
+}
+
+/// The float that a positive hexadecimal such as `0x1.8p-2` of the vectors stands for.
+fn float<T: Real>(text: &str) -> T {
+    let (significand, exponent) =
+        text.strip_prefix("0x").and_then(|text| text.split_once('p')).expect("0x and p");
+    let (whole, fraction) = significand.split_once('.').unwrap_or((significand, ""));
+    let m = u64::from_str_radix(&format!("{whole}{fraction}"), 16).expect("hexadecimal digits");
+    T::from_parts(m, exponent.parse::<i32>().expect("an exponent") - 4 * fraction.len() as i32)
+}
+
 /// The panel of a room of the vectors, and its value.
 fn room<T: Real>(test: &Value, weight: Weight) -> (usize, u128) {
-    let argument = |name: &str| float::<T>(test["args"][name].as_str().unwrap()).unwrap();
+    let argument = |name: &str| float::<T>(test["args"][name].as_str().unwrap());
     let sensor = GaussianSensor::new(argument("range"), argument("sigma")).unwrap();
     (locate(sensor.range(), sensor.sigma()).0, value(&sensor, weight))
 }
@@ -36,10 +53,9 @@ fn the_value_is_within_its_bound() {
         for test in file["tests"].as_array().unwrap().iter().filter(|test| test["want"]["error"].is_null()) {
             let (panel, value) =
                 if test["format"] == "f32" { room::<f32>(test, weight) } else { room::<f64>(test, weight) };
-            let end = |value: u128| Exact { m: value.into(), binary: -120, decimal: 0 };
-            let want = |name: &str| Exact::decimal(test["want"][name].as_str().unwrap()).unwrap();
-            let (below, above) = (end(value - (1 << 55)), end(value + (1 << 55)));
-            assert!(below.cmp(&want("lo")).is_lt() && want("hi").cmp(&above).is_lt(), "{}", test["id"]);
+            let want = |name: &str| decimal(test["want"][name].as_str().unwrap());
+            let (below, above) = (dyadic(value - (1 << 55), -120), dyadic(value + (1 << 55), -120));
+            assert!(below < want("lo") && want("hi") < above, "{}", test["id"]);
             seen[panel] += 1;
         }
         assert!(seen.iter().all(|&count| count >= 2), "{seen:?}");
@@ -64,8 +80,8 @@ fn the_place_is_right<T: Real>(range: T, sigma: T) -> Result<(), TestCaseError> 
         // The bounds are place 2^(width - 64) and a unit more, times the denominator.
         let ((n, n_exponent), (d, d_exponent)) = (normalised(numerator), normalised(denominator));
         let place = ((first as u128) << 64) + place;
-        let quotient = Exact { m: n.into(), binary: n_exponent - d_exponent, decimal: 0 };
-        let end = |place: u128| Exact { m: BigUint::from(place) * d, binary: width - 64, decimal: 0 };
+        let quotient = dyadic(n, n_exponent - d_exponent);
+        let end = |place: u128| dyadic(BigInt::from(place) * d, width - 64);
         (end(place).cmp(&quotient), quotient.cmp(&end(place + 1)))
     };
     if panel < BEYOND {

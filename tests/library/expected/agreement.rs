@@ -3,8 +3,8 @@
 use super::{Map, expected};
 use crate::common::Random;
 use mean_information::Tally;
-use mean_information::build::Hypotheses;
 use mean_information::cell::Cell;
+use mean_information::expected::Hypotheses;
 use mean_information::map::encoding::Probability;
 use mean_information::map::{Encoding, Geometry, Grid};
 

@@ -1,6 +1,6 @@
 //! Rooms that are refused: models that break their promise, and more samples than the limit.
 
-use mean_information::build::{CartesianRoom, PolarRoom, Sampling};
+use mean_information::room::{CartesianRoom, PolarRoom, Sampling};
 use mean_information::sensor::{GaussianSensor, InverseSensorModel};
 use mean_information::{Error, Real};
 

@@ -2,7 +2,7 @@
 
 use super::{gaussian, grid, pose_of};
 use mean_information::Error;
-use mean_information::build::{Beam, Direction, Pose, Scan, ScanMap};
+use mean_information::scan::{Beam, Direction, Pose, Scan, ScanMap};
 use mean_information::sensor::{GaussianSensor, InverseSensorModel, SteppedSensor};
 
 #[test]

@@ -1,0 +1,193 @@
+//! `meaninfo emmi`: the mean information of the expected map of weighted maps.
+
+use super::Status;
+use super::metres::positive;
+use crate::failure::Failure;
+use crate::maps::npy::WithMaps;
+use crate::maps::{self, ArrayEncoding, MAX_CELLS, Options, Problem, Readable};
+use crate::measures::Measures;
+use crate::output::{Files, Number, Record, Report, Value, Writing, short, table, with_notes};
+use crate::progress::Progress;
+use clap::Args;
+use mean_information::Real;
+use mean_information::expected::{Hypotheses, weighted_mean};
+use mean_information::map::Grid;
+use std::path::PathBuf;
+
+/// The arguments of `meaninfo emmi`.
+#[derive(Args, Debug)]
+pub struct Arguments {
+    /// The particles' maps: an .npy array of three dimensions, particle, row and column.
+    #[arg(long, value_name = "FILE.npy")]
+    particles: PathBuf,
+    /// Their weights: an .npy list of floats or integers, not negative and not all 0; they need not add up to 1.
+    #[arg(long, value_name = "FILE.npy")]
+    weights: PathBuf,
+    /// What the numbers of the maps are; if absent, floats are probabilities and int8 are percentages.
+    #[arg(long, value_enum)]
+    encoding: Option<ArrayEncoding>,
+    /// The side of a cell in metres.
+    #[arg(long, value_name = "METRES", value_parser = positive::<f64>)]
+    resolution: Option<f64>,
+    /// Refuse particles of more cells together than this before memory is taken for them.
+    #[arg(long, value_name = "N", default_value_t = MAX_CELLS)]
+    max_cells: u64,
+    #[command(flatten)]
+    writing: Writing,
+}
+
+impl Arguments {
+    pub(super) fn run(&self) -> Result<Status, Failure> {
+        let options = Options {
+            encoding: self.encoding,
+            resolution: self.resolution,
+            max_cells: Some(self.max_cells),
+            ..Options::default()
+        };
+        let weights = maps::read_weights(&self.weights, &options)?;
+        let expected = maps::read_particles(
+            &self.particles,
+            &options,
+            Expecting { weights: &weights, max_cells: self.max_cells },
+        )?;
+        let expected = expected.map_err(|error| Problem::new(&self.weights, error.to_string()))?;
+        let name = self.particles.display().to_string();
+        let report = Emmi { name, weights, resolution: self.resolution, expected };
+        let mut files = Files::new();
+        files.read([self.particles.clone(), self.weights.clone()]);
+        self.writing.write(&report, files)?;
+        Ok(Status::Done)
+    }
+}
+
+/// What is computed of particles.
+struct Expected {
+    /// Of the expected map.
+    measures: Measures,
+    /// `None` if nothing is observed in any particle of a weight above 0.
+    mean_of_particles: Option<Number>,
+    /// How many others of a weight above 0 there are in which nothing is observed.
+    unobserved: usize,
+    particles: Vec<Measures>,
+}
+
+/// Takes the expected map of particles with these weights.
+struct Expecting<'a> {
+    weights: &'a [f64],
+    max_cells: u64,
+}
+
+impl WithMaps for Expecting<'_> {
+    type Output = Result<Expected, mean_information::Error>;
+
+    fn with<E: Readable>(self, maps: Vec<Grid<E>>) -> Self::Output {
+        let hypotheses = Hypotheses::new(&maps, self.weights)?.with_max_cells(self.max_cells);
+        let progress = Progress::new(maps.len() + 1);
+        progress.begin("expected map");
+        // The particles of a file are all of one size.
+        let size = maps.first().map_or([0; 2], |map| [map.width(), map.height()]);
+        let measures = Measures::of_expected(size, &hypotheses.expected_tally()?);
+        progress.done();
+        let mut particles = Vec::with_capacity(maps.len());
+        for (index, map) in maps.iter().enumerate() {
+            progress.begin(&format!("particle {index}"));
+            particles.push(Measures::of_grid(map));
+            progress.done();
+        }
+        // Where others have some, a map in which nothing is observed has mean information 0. The numbers are of the maps'
+        // own precision.
+        let own = |m: &Measures| E::Float::nearest(m.mean_information.map_or(0.0, Number::widen));
+        let values: Vec<E::Float> = particles.iter().map(own).collect();
+        let mean = Number::new(weighted_mean(self.weights, &values)?);
+        let counted = || particles.iter().zip(self.weights).filter(|&(_, &weight)| weight > 0.0);
+        let unobserved = counted().filter(|(m, _)| m.mean_information.is_none()).count();
+        let mean_of_particles = (unobserved < counted().count()).then_some(mean);
+        Ok(Expected { measures, mean_of_particles, unobserved, particles })
+    }
+}
+
+/// The result.
+struct Emmi {
+    name: String,
+    weights: Vec<f64>,
+    resolution: Option<f64>,
+    expected: Expected,
+}
+
+impl Emmi {
+    fn warnings(&self) -> Vec<String> {
+        let Expected { measures, mean_of_particles, unobserved, .. } = &self.expected;
+        let doubt = measures.doubt.map(|doubt| doubt.warning().to_owned());
+        let zeros = (*unobserved > 0 && mean_of_particles.is_some()).then(|| {
+            let particles = if *unobserved == 1 { "particle" } else { "particles" };
+            format!("{unobserved} {particles} with nothing observed, 0 in the mean of particles")
+        });
+        doubt.into_iter().chain(zeros).collect()
+    }
+
+    fn observed_area(&self) -> Option<f64> {
+        let area = self.resolution.map(|side| self.expected.measures.observed() as f64 * (side * side));
+        area.filter(|area| area.is_finite())
+    }
+
+    fn record(&self) -> Record {
+        let Expected { measures, mean_of_particles, particles, .. } = &self.expected;
+        Record(vec![
+            ("emmi", Value::Computed(measures.mean_information)),
+            ("observed", Value::Count(measures.observed())),
+            ("information_bits", Value::Computed(Some(measures.information))),
+            ("entropy_bits", Value::Computed(Some(measures.entropy))),
+            ("mean_of_particles", Value::Computed(*mean_of_particles)),
+            ("particles", Value::Numbers(particles.iter().map(|m| m.mean_information).collect())),
+            ("observed_area_m2", Value::Computed(self.observed_area().map(Number::Double))),
+            ("meaningful", Value::Flag(measures.doubt.is_none())),
+            ("warnings", Value::Texts(self.warnings())),
+        ])
+    }
+}
+
+impl Report for Emmi {
+    fn table(&self) -> String {
+        let header = [
+            "map",
+            "weight",
+            "mean information\n(bits / cell)",
+            "information\n(bits)",
+            "entropy\n(bits)",
+            "observed",
+        ];
+        let number = |x: Option<Number>| x.map_or("none".to_owned(), |x| x.to_string());
+        let row = |name: String, weight: String, m: &Measures| {
+            let [information, entropy] = [m.information, m.entropy].map(|x| format!("{:.3}", x.widen()));
+            [name, weight, number(m.mean_information), information, entropy, m.observed().to_string()]
+        };
+        let area = self.observed_area().map(|area| format!("\n{} m²", short(area)));
+        let mut expected = row("expected map".to_owned(), String::new(), &self.expected.measures);
+        let doubt = self.expected.measures.doubt;
+        expected[2] +=
+            &doubt.map(|doubt| format!("\nnot meaningful:\n{}", doubt.reason())).unwrap_or_default();
+        expected[5] += &area.unwrap_or_default();
+        let mean = [
+            "mean of particles".to_owned(),
+            String::new(),
+            number(self.expected.mean_of_particles),
+            String::new(),
+            String::new(),
+            String::new(),
+        ];
+        let particles = self.expected.particles.iter().zip(&self.weights).enumerate();
+        let particles =
+            particles.map(|(index, (m, &weight))| row(format!("particle {index}"), short(weight), m));
+        let warnings = self.warnings();
+        let notes = warnings.iter().map(|note| (&*self.name, &**note));
+        with_notes(table(header, [expected, mean].into_iter().chain(particles)), notes)
+    }
+
+    fn rows(&self) -> Vec<Record> {
+        vec![self.record()]
+    }
+
+    fn json(&self) -> Value {
+        Value::Record(self.record())
+    }
+}

@@ -1,0 +1,285 @@
+//! `meaninfo simulate`: a robot with a range sensor in a room, and the map it makes.
+
+use super::Status;
+use super::metres::positive;
+use crate::failure::Failure;
+use crate::maps::{Map, Options, Problem, Semantics, npy, ros};
+use crate::measures::Measures;
+use crate::output::{Files, Number, Record, Report, Value, Writing, short, table, wrapped};
+use crate::progress::Progress;
+use crate::simulation::{self, Journey, RoomName, Scanner};
+use clap::Args;
+use mean_information::map::Grid;
+use mean_information::map::encoding::Probability;
+use mean_information::scan::{Pose, ScanMap};
+use std::ffi::OsString;
+use std::io::Cursor;
+use std::path::{Path, PathBuf};
+
+/// The most readings of cells: a quarter of an hour's work.
+const MOST_READINGS: f64 = (1_u64 << 32) as f64;
+
+/// The arguments of `meaninfo simulate`.
+#[derive(Args, Debug)]
+pub struct Arguments {
+    /// Write the map to PREFIX.yaml and PREFIX.pgm (ROS, mode scale) and to PREFIX.npy (probabilities, float64).
+    #[arg(long, value_name = "PREFIX")]
+    out: PathBuf,
+    /// Where the robot is.
+    #[arg(long, value_enum, default_value_t)]
+    room: RoomName,
+    /// How often it stops to look round, at equal distances along its way; if absent, as often as the room needs.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 16))]
+    poses: Option<u32>,
+    /// The drift of its odometry: after d metres the pose it believes in is off by about D sqrt(d) metres either way, and
+    /// as many radians.
+    #[arg(long, value_name = "D", default_value_t = 0.0, value_parser = not_negative)]
+    drift: f64,
+    /// The seed of the noise and of the drift.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+    #[command(flatten)]
+    sensor: Sensor,
+    /// The side of a cell in metres.
+    #[arg(long, value_name = "METRES", default_value_t = 0.05, value_parser = positive::<f64>)]
+    resolution: f64,
+    /// Refuse a map of more cells than this; it takes up to 60 bytes for each.
+    #[arg(long, value_name = "N", default_value_t = ScanMap::<f64>::MAX_CELLS)]
+    max_cells: u64,
+    #[command(flatten)]
+    writing: Writing,
+}
+
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Sensor")]
+struct Sensor {
+    /// How many beams it has, all round.
+    #[arg(long, value_name = "N", default_value_t = 720, value_parser = clap::value_parser!(u32).range(1..=1 << 16))]
+    beams: u32,
+    /// How far it sees.
+    #[arg(long, value_name = "METRES", default_value_t = 4.5, value_parser = positive::<f64>)]
+    range_max: f64,
+    /// The standard deviation that the inverse sensor model (Eq. 5) takes its ranges to have.
+    #[arg(long, value_name = "METRES", default_value_t = 0.05, value_parser = positive::<f64>)]
+    sigma: f64,
+    /// The standard deviation that its ranges have; if absent, that of --sigma.
+    #[arg(long, value_name = "METRES", value_parser = not_negative)]
+    noise: Option<f64>,
+}
+
+fn not_negative(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(x) if (0.0..f64::INFINITY).contains(&x) => Ok(x),
+        _ => Err("allowed is 0 or a positive, finite number".to_owned()),
+    }
+}
+
+impl Arguments {
+    pub(super) fn run(&self) -> Result<Status, Failure> {
+        let [yaml, image, array] = [".yaml", ".pgm", ".npy"].map(|ending| self.file(ending));
+        let (yaml, image, array) = (yaml?, image?, array?);
+        let room = self.room.room();
+        let poses = self.poses.map_or(room.poses, |poses| poses as usize);
+        self.check_work(poses)?;
+        let scanner =
+            Scanner { beams: self.sensor.beams, maximum_range: self.sensor.range_max, noise: self.noise() };
+        let journey = Journey::through(&room, &scanner, poses, self.drift, self.seed)?;
+        let map = self.map(&journey)?;
+        let files = Named { yaml: &yaml, image: &image, array: &array };
+        let (saved, read) = files.save(&map, &self.comment())?;
+
+        let report = Simulated {
+            arguments: self,
+            files,
+            poses: journey.poses.iter().zip(&journey.believed).map(|(&p, &q)| [p, q]).collect(),
+            measures: Measures::of_grid(&map),
+            read: Measures::of(&read.cells),
+        };
+        let mut outputs = Files::new();
+        outputs.add(&yaml, saved.yaml.into_bytes());
+        outputs.add(&image, saved.image);
+        outputs.add(&array, npy::save(&map));
+        self.writing.write(&report, outputs)?;
+        Ok(Status::Done)
+    }
+
+    /// The map of the scans at the believed poses.
+    fn map(&self, journey: &Journey) -> Result<Grid<Probability<f64>>, Failure> {
+        let refused = |error: mean_information::Error| match error {
+            mean_information::Error::TooManyCells { .. } => Failure::Usage(format!(
+                "{error}; give a larger --resolution, a smaller --range-max, or raise --max-cells"
+            )),
+            error => error.into(),
+        };
+        let mut map = ScanMap::new(self.resolution)?.with_max_cells(self.max_cells);
+        let progress = Progress::new(journey.poses.len());
+        for (index, scan) in journey.scans().enumerate() {
+            progress.begin(&format!("scan {index}"));
+            simulation::insert(&mut map, &scan?, self.sensor.sigma).map_err(refused)?;
+            progress.done();
+        }
+        Ok(map.probabilities()?)
+    }
+
+    fn noise(&self) -> f64 {
+        self.sensor.noise.unwrap_or(self.sensor.sigma)
+    }
+
+    /// Refuses work that would not end.
+    fn check_work(&self, poses: usize) -> Result<(), Failure> {
+        // A beam crosses a cell per step along x and along y.
+        let per_beam = 2.0 * self.sensor.range_max / self.resolution + 1.0;
+        let readings = poses as f64 * f64::from(self.sensor.beams) * per_beam;
+        if readings <= MOST_READINGS {
+            return Ok(());
+        }
+        Err(Failure::Usage(format!(
+            "{poses} poses of {} beams over {} cells each take up to {readings:.3e} readings of cells, allowed are \
+             {MOST_READINGS:.3e}; give fewer beams or poses, a larger --resolution or a smaller --range-max",
+            self.sensor.beams,
+            short(per_beam)
+        )))
+    }
+
+    /// The prefix with an ending.
+    fn file(&self, ending: &str) -> Result<PathBuf, Failure> {
+        let whole = self.out.as_os_str().as_encoded_bytes();
+        if self.out.file_name().is_none_or(|name| !whole.ends_with(name.as_encoded_bytes())) {
+            return Err(Failure::Usage(format!(
+                "--out {}: names a folder; give the beginning of the files' names, as in maps/room",
+                self.out.display()
+            )));
+        }
+        let mut path = OsString::from(&self.out);
+        path.push(ending);
+        Ok(path.into())
+    }
+
+    /// What makes the map again.
+    fn comment(&self) -> String {
+        let poses = self.poses.map_or(String::new(), |poses| format!(" --poses {poses}"));
+        let noise = self.sensor.noise.map_or(String::new(), |noise| format!(" --noise {noise}"));
+        format!(
+            "Made by: meaninfo simulate --room {}{poses} --drift {} --seed {} --beams {} --range-max {} --sigma {}{noise} \
+             --resolution {}",
+            self.room.name(),
+            self.drift,
+            self.seed,
+            self.sensor.beams,
+            self.sensor.range_max,
+            self.sensor.sigma,
+            self.resolution
+        )
+    }
+}
+
+/// The files of a map.
+#[derive(Clone, Copy)]
+struct Named<'a> {
+    yaml: &'a Path,
+    image: &'a Path,
+    array: &'a Path,
+}
+
+impl Named<'_> {
+    /// The ROS files of a map, and the map that is read from them.
+    fn save(&self, map: &Grid<Probability<f64>>, comment: &str) -> Result<(ros::SavedMap, Map), Problem> {
+        let name = self.image.file_name().and_then(|name| name.to_str());
+        let name = name.ok_or_else(|| Problem::new(self.image, "has a name that is not UTF-8 text"))?;
+        let saved = ros::save(map, name, comment).map_err(|fault| fault.in_file(self.image))?;
+        let options = Options { max_cells: Some(u64::MAX), ..Options::default() };
+        let description = ros::Description::read(saved.yaml.as_bytes(), Semantics::Nav2)
+            .map_err(|fault| fault.in_file(self.yaml))?;
+        let read = ros::read_image(Cursor::new(&saved.image), &description, &options)
+            .map_err(|fault| fault.in_file(self.image))?;
+        Ok((saved, read))
+    }
+}
+
+/// The result.
+struct Simulated<'a> {
+    arguments: &'a Arguments,
+    files: Named<'a>,
+    /// Each true pose with the one that the robot believed in.
+    poses: Vec<[Pose; 2]>,
+    measures: Measures,
+    /// The measures of the image, as nav2 reads it.
+    read: Measures,
+}
+
+impl Simulated<'_> {
+    fn record(&self) -> Record {
+        let Arguments { room, drift, seed, sensor, resolution, .. } = self.arguments;
+        let text = |path: &Path| Value::Text(path.display().to_string());
+        let mut entries = vec![
+            ("map", text(self.files.yaml)),
+            ("image", text(self.files.image)),
+            ("array", text(self.files.array)),
+            ("room", Value::Text(room.name().to_owned())),
+            ("drift", Value::Given(Some(*drift))),
+            ("seed", Value::Count(*seed)),
+            ("beams", Value::Count(sensor.beams.into())),
+            ("range_max_m", Value::Given(Some(sensor.range_max))),
+            ("sigma_m", Value::Given(Some(sensor.sigma))),
+            ("noise_m", Value::Given(Some(self.arguments.noise()))),
+        ];
+        entries.extend(self.measures.entries(Some(*resolution)));
+        entries.extend([
+            ("quantisation", Value::Given(Some(ros::QUANTISATION))),
+            ("mean_information_of_image", Value::Computed(self.read.mean_information)),
+            ("poses", Value::Records(self.poses.iter().map(pose_record).collect())),
+        ]);
+        Record(entries)
+    }
+}
+
+fn pose_record([pose, believed]: &[Pose; 2]) -> Record {
+    let given = |x| Value::Given(Some(x));
+    let ([x, y], [believed_x, believed_y]) = (pose.position(), believed.position());
+    Record(vec![
+        ("x_m", given(x)),
+        ("y_m", given(y)),
+        ("theta_rad", given(pose.theta())),
+        ("believed_x_m", given(believed_x)),
+        ("believed_y_m", given(believed_y)),
+        ("believed_theta_rad", given(believed.theta())),
+    ])
+}
+
+impl Report for Simulated<'_> {
+    fn table(&self) -> String {
+        let m = &self.measures;
+        let header = [
+            "map",
+            "poses",
+            "cells",
+            "mean information\n(bits / cell)",
+            "the same, read\nfrom the image",
+            "observed",
+            "free / occupied",
+            "unknown",
+        ];
+        let number = |x: Option<Number>| x.map_or("none".to_owned(), |x| x.to_string());
+        table(
+            header,
+            [[
+                wrapped(&self.files.yaml.display().to_string()),
+                self.poses.len().to_string(),
+                format!("{} × {}", m.width, m.height),
+                number(m.mean_information),
+                number(self.read.mean_information),
+                m.observed().to_string(),
+                format!("{} / {}", m.free, m.occupied),
+                m.unknown.to_string(),
+            ]],
+        )
+    }
+
+    fn rows(&self) -> Vec<Record> {
+        vec![self.record()]
+    }
+
+    fn json(&self) -> Value {
+        Value::Record(self.record())
+    }
+}

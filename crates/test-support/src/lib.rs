@@ -1,0 +1,13 @@
+//! What several test suites share. Not published: the library's own unit tests, which travel in its package, do without.
+//!
+//! | module | holds | used by |
+//! |---|---|---|
+//! | [`exact`] | decimals and hexadecimal floats, read exactly | `tests/vectors`, `benches/operations.rs` |
+//! | [`digest`] | digests of a million results and of integrals | `tests/same_bits.rs` |
+//! | [`battery`] | integrals with their values to 32 digits | `tests/library`, `benches/comparison` |
+//! | [`timing`] | the time of a call on a machine that others use, too | `benches/peers`, `crates/cli/benches` |
+
+pub mod battery;
+pub mod digest;
+pub mod exact;
+pub mod timing;

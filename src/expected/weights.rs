@@ -1,0 +1,221 @@
+//! Weighted means, exactly: `sum w_i x_i / sum w_i` as a quotient of integers, rounded once where a float is asked
+//! for.
+
+use crate::error::Error;
+use crate::real::Real;
+use crate::rounded::{Leading, Natural, leading, odd_parts, quotient};
+use alloc::vec::Vec;
+use core::cmp::Ordering;
+
+/// The mean of `values` with the given weights, `sum w_i x_i / sum w_i`.
+///
+/// Correctly rounded, ties to even (proved, [`expected`](crate::book::expected)): neither order nor scale of the
+/// weights changes a bit.
+///
+/// # Errors
+/// As [`Hypotheses::new`](super::Hypotheses::new) on the weights; [`Error::Item`] naming the first value that is not
+/// finite.
+///
+/// ```
+/// use mean_information::expected::weighted_mean;
+/// assert_eq!(weighted_mean(&[0.3, 0.1, 0.2], &[0.5, 0.5, 0.5_f64])?, 0.5);
+/// assert_eq!(weighted_mean(&[3.0, 0.5], &[-2.0, 12.0_f32])?, 0.0);
+/// # Ok::<(), mean_information::Error>(())
+/// ```
+pub fn weighted_mean<T: Real>(weights: &[f64], values: &[T]) -> Result<T, Error> {
+    let weights = Weights::new(weights, values.len())?;
+    if let Some(index) = values.iter().position(|x| !x.is_finite()) {
+        return Err(Error::Item { what: "value", index, value: values[index].widen(), allowed: "finite" });
+    }
+    Ok(weights.mean(values).nearest())
+}
+
+/// Weights and their sum, without rounding.
+#[derive(Clone, Debug)]
+pub(super) struct Weights {
+    /// Each is `m 2^shift` in units of the least bit of all.
+    parts: Vec<(u64, usize)>,
+    /// The largest of these shifts.
+    spread: usize,
+    total: Natural,
+}
+
+impl Weights {
+    /// As many weights as there are `items`.
+    pub(super) fn new(weights: &[f64], items: usize) -> Result<Self, Error> {
+        if weights.len() != items {
+            return Err(Error::WeightCount { given: weights.len(), items });
+        }
+        if let Some(index) = weights.iter().position(|&w| !(w >= 0.0 && w.is_finite())) {
+            let (what, value) = ("weight", weights[index]);
+            return Err(Error::Item { what, index, value, allowed: "not negative and finite" });
+        }
+        let least = weights.iter().filter_map(|&w| odd_parts(w)).map(|(_, e)| e).min();
+        let least = least.ok_or_else(|| Error::out_of_range("sum of the weights", 0.0, "above 0"))?;
+        let part = |&w: &f64| odd_parts(w).map_or((0, 0), |(m, e)| (m, (e - least) as usize));
+        let parts: Vec<_> = weights.iter().map(part).collect();
+        let mut total = Natural::default();
+        for &(m, shift) in &parts {
+            total.add_shifted(m.into(), shift);
+        }
+        let spread = parts.iter().map(|&(_, shift)| shift).max().unwrap_or(0);
+        Ok(Self { parts, spread, total })
+    }
+
+    /// Whether an item has any weight.
+    pub(super) fn is_positive(&self, index: usize) -> bool {
+        self.parts[index].0 > 0
+    }
+
+    /// The mean of finite numbers, one for each weight.
+    pub(super) fn mean<T: Real>(&self, values: &[T]) -> Mean<'_> {
+        let (mut small, mut large) = (T::max_value(), T::zero());
+        for x in values.iter().map(|x| x.abs()) {
+            small = if x < small && !x.is_zero() { x } else { small };
+            large = if x > large { x } else { large };
+        }
+        let least = if large.is_zero() { 0 } else { small.parts().1 };
+        let highest = self.spread + (large.parts().1 - least).max(0) as usize;
+        let (sum, is_negative) = if highest < 128 && values.len() < MANY {
+            self.short_sum(values, least)
+        } else {
+            self.long_sum(values, least)
+        };
+        Mean { sum, is_negative, exponent: least, total: &self.total }
+    }
+
+    /// `w_i x_i` as an integer and its shift, in units of `2^least`, for each `x_i` that is not 0; whether it is negative.
+    #[inline]
+    fn terms<T: Real>(&self, values: &[T], least: i32) -> impl Iterator<Item = (u128, usize, bool)> {
+        let pairs = self.parts.iter().zip(values).filter(|(_, x)| !x.is_zero());
+        pairs.map(move |(&(weight, shift), &x)| {
+            let (m, e) = x.parts();
+            (u128::from(weight) * u128::from(m), shift + (e - least) as usize, x < T::zero())
+        })
+    }
+
+    /// The magnitude of `sum w_i x_i`, and whether it is negative, in two halves of 128 bits: fewer than [`MANY`] terms of
+    /// 106 bits, with shifts below 128.
+    fn short_sum<T: Real>(&self, values: &[T], least: i32) -> (Natural, bool) {
+        let (mut low, mut high) = (0_u128, 0_i128);
+        for (n, shift, negative) in self.terms(values, least) {
+            let (bottom, top) = (n << shift, ((n >> 1) >> (127 - shift)) as i128);
+            let carry;
+            (low, carry) = if negative { low.overflowing_sub(bottom) } else { low.overflowing_add(bottom) };
+            let top = top + i128::from(carry);
+            high += if negative { -top } else { top };
+        }
+        let is_negative = high < 0;
+        if is_negative {
+            high = -high - i128::from(low != 0);
+            low = low.wrapping_neg();
+        }
+        (Natural::from([low, high as u128]), is_negative)
+    }
+
+    /// The same for any terms.
+    fn long_sum<T: Real>(&self, values: &[T], least: i32) -> (Natural, bool) {
+        let (mut positive, mut negative) = (Natural::default(), Natural::default());
+        for (n, shift, is_negative) in self.terms(values, least) {
+            let sum = if is_negative { &mut negative } else { &mut positive };
+            sum.add_shifted(n, shift);
+        }
+        positive.difference(&negative)
+    }
+}
+
+/// Terms whose sum has room in 256 bits.
+const MANY: usize = 1 << 20;
+
+/// A mean, `±sum 2^exponent / total`; of numbers in `[0, 1]` the exponent is at most 0.
+pub(super) struct Mean<'a> {
+    sum: Natural,
+    is_negative: bool,
+    exponent: i32,
+    total: &'a Natural,
+}
+
+impl<'a> Mean<'a> {
+    /// A number in `[0, 1]`, the mean of values that agree; `one` is the integer.
+    pub(super) fn of_one<T: Real>(p: T, one: &'a Natural) -> Self {
+        let (m, exponent) = if p.is_zero() { (0, 0) } else { p.parts() };
+        Self { sum: Natural::from(m), is_negative: false, exponent, total: one }
+    }
+}
+
+impl Mean<'_> {
+    pub(super) fn nearest<T: Real>(&self) -> T {
+        let magnitude: T = quotient(&self.sum, self.total, self.exponent);
+        if self.is_negative { -magnitude } else { magnitude }
+    }
+
+    /// The shift of `total` to what `sum` is if the mean is 1.
+    fn whole(&self) -> usize {
+        self.exponent.unsigned_abs() as usize
+    }
+
+    /// Of a mean `p` in `[0, 1]`: `2p - 1`, exactly.
+    pub(super) fn beside_half(&self) -> Self {
+        let (sum, is_negative) = self.sum.shifted_difference(1, self.total, self.whole());
+        Self { sum, is_negative, ..*self }
+    }
+
+    /// Of a mean `p` in `[0, 1]`: `1 - p`, exactly.
+    pub(super) fn complement(&self) -> Self {
+        let (sum, _) = self.total.shifted_difference(self.whole(), &self.sum, 0);
+        Self { sum, ..*self }
+    }
+
+    /// Whether the mean is below, at or above 0, exactly.
+    pub(super) fn sign(&self) -> Ordering {
+        match (self.sum.is_zero(), self.is_negative) {
+            (true, _) => Ordering::Equal,
+            (false, true) => Ordering::Less,
+            (false, false) => Ordering::Greater,
+        }
+    }
+
+    /// Of a distance of numbers in `[0, 1]`: whether its first bit already says that it is above `2^-4`.
+    pub(super) fn is_above_a_sixteenth(&self) -> bool {
+        self.sum.bits() + 3 >= self.total.bits() + self.whole()
+    }
+
+    /// The first 63 bits of the magnitude, and whether there are more; `None` for 0.
+    pub(super) fn leading(&self) -> Option<(Leading, bool)> {
+        leading(&self.sum, self.total, self.exponent)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::collection::vec;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Two ways: in 256 bits, and in as many as it takes.
+        #[test]
+        fn a_short_sum_is_the_long_one(pairs in vec((1e-9_f64..1e9, prop_oneof![-1e9_f64..1e9, -1e-9_f64..1e-9, Just(0.0)]), 1..9), last in any::<bool>()) {
+            let (weights, mut values): (Vec<f64>, Vec<f64>) = pairs.into_iter().unzip();
+            if last {
+                // Nothing is left of the first but for its sign.
+                values[0] = -values[0];
+            }
+            let sums = Weights::new(&weights, values.len()).unwrap();
+            let least = values.iter().filter(|x| **x != 0.0).map(|x| x.parts().1).min().unwrap_or(0);
+            prop_assume!(values.iter().all(|x| *x == 0.0 || x.parts().1 - least + (sums.spread as i32) < 128));
+            prop_assert_eq!(sums.short_sum(&values, least), sums.long_sum(&values, least));
+        }
+
+        /// `d 2^e` of 1, as the first bit says and as it is.
+        #[test]
+        fn above_a_sixteenth(d in 1_u64.., total in 1_u64.., shift in 0_i32..12) {
+            let one = Natural::from(total);
+            let mean = Mean { sum: Natural::from(d), is_negative: false, exponent: -shift, total: &one };
+            let is_above = u128::from(d) << 4 > u128::from(total) << shift;
+            prop_assert!(!mean.is_above_a_sixteenth() || is_above);
+            // And above an eighth it says so.
+            prop_assert!(mean.is_above_a_sixteenth() || u128::from(d) << 3 < u128::from(total) << shift);
+        }
+    }
+}

@@ -1,0 +1,193 @@
+//! Rectangles of cells on an endless grid, and values for each cell of one.
+
+use crate::error::Error;
+use alloc::vec::Vec;
+
+/// The cells from column and row `low` to before `high`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Area {
+    low: [i64; 2],
+    high: [i64; 2],
+}
+
+impl Area {
+    /// One cell.
+    #[inline]
+    pub(super) fn of_cell(cell: [i64; 2]) -> Self {
+        Self { low: cell, high: cell.map(|k| k + 1) }
+    }
+
+    /// The least area that holds both.
+    pub(super) fn union(self, other: Self) -> Self {
+        Self {
+            low: [0, 1].map(|k| self.low[k].min(other.low[k])),
+            high: [0, 1].map(|k| self.high[k].max(other.high[k])),
+        }
+    }
+
+    /// Widened by half of its own size on the sides where `wanted` lies beyond it, at least to `wanted`.
+    fn grown_to(self, wanted: Self) -> Self {
+        let margin = |k: usize| (self.high[k] - self.low[k]) / 2;
+        let low = |k: usize| {
+            if wanted.low[k] < self.low[k] { wanted.low[k].min(self.low[k] - margin(k)) } else { self.low[k] }
+        };
+        let high = |k: usize| {
+            if wanted.high[k] > self.high[k] {
+                wanted.high[k].max(self.high[k] + margin(k))
+            } else {
+                self.high[k]
+            }
+        };
+        Self { low: [low(0), low(1)], high: [high(0), high(1)] }
+    }
+
+    /// The column and row of its lowest cell.
+    pub(super) fn low(self) -> [i64; 2] {
+        self.low
+    }
+
+    /// Columns and rows.
+    #[inline]
+    pub(super) fn size(self) -> [usize; 2] {
+        [0, 1].map(|k| (self.high[k] - self.low[k]) as usize)
+    }
+
+    /// The number of its cells.
+    pub(super) fn cells(self) -> u128 {
+        let [columns, rows] = [0, 1].map(|k| self.high[k].abs_diff(self.low[k]));
+        u128::from(columns) * u128::from(rows)
+    }
+
+    /// The number of its cells, if it is within the limit.
+    pub(super) fn within(self, limit: u64) -> Result<usize, Error> {
+        let cells = self.cells();
+        let fits = usize::try_from(cells).ok().filter(|_| cells <= u128::from(limit));
+        fits.ok_or(Error::too_many_cells(cells, limit))
+    }
+
+    fn holds(self, other: Self) -> bool {
+        self.union(other) == self
+    }
+}
+
+/// A value for each cell of an area, row by row from the lowest.
+#[derive(Clone, Debug)]
+pub(super) struct Raster<C> {
+    area: Area,
+    cells: Vec<C>,
+}
+
+impl<C: Copy> Raster<C> {
+    /// The same value everywhere.
+    ///
+    /// # Errors
+    /// [`Error::TooManyCells`] if there are more cells than the limit, or no memory for them.
+    pub(super) fn new(area: Area, fill: C, limit: u64) -> Result<Self, Error> {
+        let count = area.within(limit)?;
+        let mut cells = Vec::new();
+        cells.try_reserve_exact(count).map_err(|_| Error::too_many_cells(count as u128, limit))?;
+        cells.resize(count, fill);
+        Ok(Self { area, cells })
+    }
+
+    /// Makes room for the area `whole`, of which only `used` is not `fill` so far.
+    ///
+    /// # Errors
+    /// [`Error::TooManyCells`] if `whole` exceeds the limit, or there is no memory; then nothing changes.
+    pub(super) fn make_room(&mut self, used: Area, whole: Area, fill: C, limit: u64) -> Result<(), Error> {
+        if self.area.holds(whole) {
+            return Ok(());
+        }
+        // With room to spare, so that growing costs a fixed time per cell in the end; without, where the limit is near.
+        let spare = self.area.grown_to(whole);
+        let area = if spare.cells() <= u128::from(limit) { spare } else { whole };
+        let mut raster = Self::new(area, fill, limit)?;
+        for row in used.low[1]..used.high[1] {
+            raster.row_mut(used, row).copy_from_slice(self.row(used, row));
+        }
+        *self = raster;
+        Ok(())
+    }
+
+    fn range(&self, area: Area, row: i64) -> core::ops::Range<usize> {
+        let [width, _] = self.area.size();
+        let start = (row - self.area.low[1]) as usize * width + (area.low[0] - self.area.low[0]) as usize;
+        start..start + area.size()[0]
+    }
+
+    /// The part of a row that lies in `area`, which the raster must hold.
+    pub(super) fn row(&self, area: Area, row: i64) -> &[C] {
+        &self.cells[self.range(area, row)]
+    }
+
+    /// The part of a row that lies in `area`, which the raster must hold.
+    pub(super) fn row_mut(&mut self, area: Area, row: i64) -> &mut [C] {
+        let range = self.range(area, row);
+        &mut self.cells[range]
+    }
+
+    /// The value of a cell, which the raster must hold.
+    pub(super) fn cell_mut(&mut self, [column, row]: [i64; 2]) -> &mut C {
+        &mut self.row_mut(Area::of_cell([column, row]), row)[0]
+    }
+
+    pub(super) fn area(&self) -> Area {
+        self.area
+    }
+
+    /// The rows of an area that the raster must hold, from the lowest.
+    pub(super) fn rows(&self, area: Area) -> impl Iterator<Item = &[C]> {
+        (area.low[1]..area.high[1]).map(move |row| self.row(area, row))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Cell by cell in each direction: the side grows by half each time, so that all copies together cost a few times the
+    /// last one.
+    #[test]
+    fn growing_costs_a_fixed_time_per_cell() {
+        for direction in [[1, 0], [-1, 0], [0, 1], [0, -1]] {
+            let mut used = Area::of_cell([1000, -1000]);
+            let mut raster = Raster::new(used, 0, u64::MAX).unwrap();
+            let (mut copied, mut room) = (0, raster.area.cells());
+            for k in 1..2000 {
+                let cell = [1000 + k * direction[0], -1000 + k * direction[1]];
+                let whole = used.union(Area::of_cell(cell));
+                raster.make_room(used, whole, 0, u64::MAX).unwrap();
+                used = whole;
+                *raster.cell_mut(cell) = k;
+                assert!(raster.area.holds(used) && raster.area.cells() <= 2 * used.cells() + 1);
+                if raster.area.cells() != room {
+                    (copied, room) = (copied + used.cells(), raster.area.cells());
+                }
+            }
+            assert!(copied <= 4 * used.cells(), "{copied} of {}", used.cells());
+            let sum: i64 = raster.rows(used).flatten().sum();
+            assert_eq!(sum, 1999 * 2000 / 2);
+        }
+    }
+
+    /// On the sides where there is room nothing is added.
+    #[test]
+    fn it_grows_on_one_side() {
+        let area = Area { low: [10, 20], high: [18, 26] };
+        let grown = |low, high| area.grown_to(Area { low, high });
+        assert_eq!(grown([11, 20], [19, 26]), Area { low: [10, 20], high: [22, 26] });
+        assert_eq!(grown([9, 21], [18, 25]), Area { low: [6, 20], high: [18, 26] });
+        assert_eq!(grown([10, 19], [12, 22]), Area { low: [10, 17], high: [18, 26] });
+        assert_eq!(grown([10, 20], [18, 99]), Area { low: [10, 20], high: [18, 99] });
+    }
+
+    #[test]
+    fn what_has_room_is_left_alone() {
+        let area = Area { low: [-3, -3], high: [5, 5] };
+        let mut raster = Raster::new(area, 7, 64).unwrap();
+        raster.cells.shrink_to_fit();
+        let before = raster.cells.as_ptr();
+        raster.make_room(area, Area::of_cell([4, -3]), 0, 64).unwrap();
+        assert_eq!(raster.cells.as_ptr(), before);
+    }
+}

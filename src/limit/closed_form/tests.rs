@@ -20,11 +20,13 @@ fn dyadic(m: impl Into<BigInt>, e: i32) -> BigRational {
     if e < 0 { BigRational::new(m.into(), power) } else { (m.into() * power).into() }
 }
 
-/// The number that a decimal fraction such as `0.125` of the vectors stands for.
+/// The number that a decimal such as `1.25e-1` of the vectors stands for.
 fn decimal(text: &str) -> BigRational {
-    let (whole, fraction) = text.split_once('.').expect("a decimal fraction");
+    let (significand, exponent) = text.split_once('e').unwrap_or((text, "0"));
+    let (whole, fraction) = significand.split_once('.').unwrap_or((significand, ""));
     let digits: BigInt = format!("{whole}{fraction}").parse().expect("digits");
-    BigRational::new(digits, BigInt::from(10).pow(fraction.len() as u32))
+    let below = fraction.len() as i32 - exponent.parse::<i32>().expect("an exponent");
+    BigRational::new(digits, BigInt::from(10).pow(below.try_into().expect("a value below 10")))
 }
 
 /// The float that a positive hexadecimal such as `0x1.8p-2` of the vectors stands for.

@@ -7,6 +7,7 @@ mod docstrings;
 mod executed;
 mod links;
 mod markdown;
+mod packages;
 mod paper;
 
 use std::fs;

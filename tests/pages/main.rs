@@ -38,7 +38,8 @@ fn sources(folder: &str) -> Vec<PathBuf> {
     let mut paths: Vec<_> = entries.map(|entry| Path::new(folder).join(entry.unwrap().file_name())).collect();
     paths.sort();
     let within = |path: PathBuf| match path.extension() {
-        None => sources(path.to_str().unwrap()),
+        None if Path::new(ROOT).join(&path).is_dir() => sources(path.to_str().unwrap()),
+        None => vec![],
         Some(extension) if extension == "rs" => vec![path],
         Some(_) => vec![],
     };

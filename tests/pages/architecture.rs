@@ -88,7 +88,7 @@ fn one_way(folder: &str, order: &[String]) {
 }
 
 /// Code without comments and without modules of tests.
-fn without_tests(text: &str) -> String {
+pub(crate) fn without_tests(text: &str) -> String {
     let mut code = String::new();
     let mut lines = text.lines().filter(|line| !line.trim_start().starts_with("//"));
     while let Some(line) = lines.next() {
@@ -116,7 +116,7 @@ fn used<'a>(code: &'a str, own: &[&str]) -> Vec<&'a str> {
 }
 
 /// The paths that begin here, one for each member of a group.
-fn paths(text: &str) -> Vec<Vec<&str>> {
+pub(crate) fn paths(text: &str) -> Vec<Vec<&str>> {
     if let Some(group) = text.strip_prefix('{') {
         return members(group).into_iter().flat_map(paths).collect();
     }

@@ -5,6 +5,7 @@ mod architecture;
 mod book;
 mod docstrings;
 mod executed;
+mod imports;
 mod links;
 mod markdown;
 mod packages;

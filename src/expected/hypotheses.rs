@@ -103,7 +103,7 @@ impl<'a, E: Encoding> Hypotheses<'a, E> {
     /// the smallest grid that holds all maps exceeds the limit.
     pub fn expected_map(&self) -> Result<ExpectedMap<E::Float>, Error> {
         let alignment = self.alignment()?;
-        let mut cells = self.room(&alignment)?;
+        let mut cells = self.reserved(&alignment)?;
         let stack = Stack::new(self.maps, &alignment);
         let tally =
             self.sums(&stack, 0..stack.cells(), |mean, count| cells.resize(cells.len() + count, mean))?;
@@ -204,7 +204,7 @@ impl<'a, E: Encoding> Hypotheses<'a, E> {
     /// ```
     pub fn log_linear_pool(&self) -> Result<Grid<LogOdds<E::Float>>, Error> {
         let alignment = self.alignment()?;
-        let mut cells = self.room(&alignment)?;
+        let mut cells = self.reserved(&alignment)?;
         let (stack, mut finite) = (Stack::new(self.maps, &alignment), Vec::with_capacity(self.maps.len()));
         stack.each_run(0..stack.cells(), |run| {
             let stored = match run {
@@ -268,7 +268,7 @@ impl<'a, E: Encoding> Hypotheses<'a, E> {
     }
 
     /// Reserves memory for the cells of the grid, or refuses.
-    fn room<C>(&self, alignment: &Alignment) -> Result<Vec<C>, Error> {
+    fn reserved<C>(&self, alignment: &Alignment) -> Result<Vec<C>, Error> {
         let (mut cells, count) = (Vec::new(), alignment.width as u128 * alignment.height as u128);
         let reserved = usize::try_from(count).is_ok_and(|count| cells.try_reserve_exact(count).is_ok());
         if reserved { Ok(cells) } else { Err(Error::too_many_cells(count, self.max_cells)) }

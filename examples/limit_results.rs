@@ -11,7 +11,7 @@ use std::env;
 use std::error::Error;
 use std::io::{self, Read, Write};
 
-/// The radial limit and that by area.
+/// Computes the radial limit and the area limit.
 fn limits<T: Real>(range: T, sigma: T) -> Result<[T; 2], mean_information::Error> {
     let sensor = GaussianSensor::new(range, sigma)?;
     Ok([Weight::Radial, Weight::Area].map(|weight| closed_form(&sensor, weight)))

@@ -1,4 +1,4 @@
-//! Measures a map as it comes from a mapping program, whole and in parts: `cargo run --example measure`.
+//! Measures a map from a mapping program, whole and in parts: `cargo run --example measure`.
 
 use mean_information::Error;
 use mean_information::cell::entropy;
@@ -33,7 +33,7 @@ fn measure() -> Result<f64, Error> {
     }
     assert_eq!(merged, tally);
 
-    // Where the map is least certain.
+    // The cell with the largest entropy below 1 bit.
     let cells = (0..6).flat_map(|row| (0..10).map(move |column| (row, column)));
     let entropies = cells.map(|(row, column)| map.occupancy(row, column).map_or(1.0, entropy));
     let known = entropies.zip(map.cells()).filter(|(entropy, _)| *entropy < 1.0);

@@ -1,4 +1,4 @@
-//! A sensor model of one's own: on a grid, and in the limit of small cells, estimated and proved.
+//! A sensor model of your own: on a grid, and in the limit of small cells, estimated and proved.
 //! `cargo run --example own_sensor`.
 
 use mean_information::Error;
@@ -8,16 +8,15 @@ use mean_information::room::{CartesianRoom, PolarRoom};
 use mean_information::scalar::Scalar;
 use mean_information::sensor::InverseSensorModel;
 
-/// A sonar: what it says of free space fades with the distance, and the obstacle is somewhere in a stretch about the
-/// range.
+/// A sonar: free space becomes less certain with the distance, and the obstacle is somewhere in a stretch about the range.
 struct Sonar {
-    /// Metres.
+    /// The range read, in metres.
     range: f64,
-    /// Metres, about the range.
+    /// The length of the stretch about the range, in metres.
     thickness: f64,
-    /// Metres over which free space loses most of its certainty.
+    /// The length over which free space loses most of its certainty, in metres.
     fading: f64,
-    /// Occupancy over the thickness.
+    /// The occupancy over the thickness.
     occupied: f64,
 }
 
@@ -26,13 +25,13 @@ impl Sonar {
         self.range - 0.5 * self.thickness
     }
 
-    /// `p = 0.45 - 0.4 e^(-ρ / fading)`: 0.05 at the sensor.
+    /// Computes `p = 0.45 - 0.4 e^(-ρ / fading)`: 0.05 at the sensor.
     fn free<S: Scalar>(&self, rho: S) -> S {
         S::constant(0.45) - S::constant(0.4) * (-rho / S::constant(self.fading)).exp()
     }
 }
 
-/// For grids: the occupancy at a distance.
+/// The model for grids: the occupancy at a distance.
 impl InverseSensorModel for Sonar {
     type Float = f64;
 
@@ -49,7 +48,7 @@ impl InverseSensorModel for Sonar {
     }
 }
 
-/// For integrals: the entropy along a beam, in pieces that are smooth, for any kind of number. Here `t` is the distance.
+/// The model for integrals: the entropy along a beam, in smooth pieces, for any kind of number. Here `t` is the distance.
 impl RadialModel for Sonar {
     type Float = f64;
 

@@ -11,18 +11,18 @@ use std::f64::consts::TAU;
 
 /// Four corridors about a block: the walls are these squares, from a corner to a corner (metres).
 const WALLS: [[f64; 2]; 2] = [[0.0, 10.0], [2.5, 7.5]];
-/// The range sensor sees so far (metres), with so many beams, and noise of this standard deviation (metres).
+/// The range sensor: its longest range (metres), number of beams, and standard deviation of the noise (metres).
 const SEES: f64 = 4.0;
 const BEAMS: u32 = 120;
 const SIGMA: f64 = 0.05;
-/// Metres and steps of one corridor.
+/// The length (metres) and the steps of one corridor.
 const CORRIDOR: f64 = 7.5;
 const STEPS: u32 = 10;
 
-/// By how much more each particle's odometry turns at a step than its neighbour's (radians).
+/// The difference of the turns of neighbouring particles' odometry at each step (radians).
 const TURN: f64 = 0.003;
 
-/// One guess of where the robot went. Its odometry turns a little at each step, each particle's by another angle.
+/// A particle: one hypothesis about the path. Its odometry turns a little at each step, by another angle for each particle.
 #[derive(Clone)]
 struct Particle {
     pose: Pose,
@@ -31,13 +31,13 @@ struct Particle {
     log_weight: f64,
 }
 
-/// A pose moved by `distance` and then turned; angles in radians.
+/// Moves a pose by `distance` and then turns it; angles in radians.
 fn moved(pose: &Pose, distance: f64, turn: f64) -> Result<Pose, Error> {
     let ([x, y], heading) = (pose.position(), Direction::new(&[pose.theta()])?);
     Pose::new(x + distance * heading.cos(), y + distance * heading.sin(), pose.theta() + turn)
 }
 
-/// What the beams return: the nearest wall in their way.
+/// Computes the range that each beam returns: that of the nearest wall.
 fn look(pose: &Pose) -> Result<Vec<Beam<f64>>, Error> {
     let bearings = (0..BEAMS).map(|k| f64::from(k) * TAU / f64::from(BEAMS));
     let beam = |bearing| {
@@ -58,7 +58,7 @@ fn look(pose: &Pose) -> Result<Vec<Beam<f64>>, Error> {
     bearings.map(beam).collect()
 }
 
-/// How well the returns end on what the map has for walls: the mean logarithm of the occupancy there, or a cell beside.
+/// Scores how well the returns end on walls of the map: the mean logarithm of the occupancy there or in a cell beside.
 fn fit(map: &Grid<Probability<f64>>, scan: &Scan<f64>) -> Result<f64, Error> {
     let (geometry, [x, y]) = (map.geometry(), scan.pose().position());
     let occupancy = |place: [f64; 2]| {
@@ -80,14 +80,14 @@ fn fit(map: &Grid<Probability<f64>>, scan: &Scan<f64>) -> Result<f64, Error> {
     Ok(sum / count)
 }
 
-/// The particles' weights, the largest 1.
+/// Computes the particles' weights, the largest of which is 1.
 fn weights(particles: &[Particle]) -> Vec<f64> {
     let largest = particles.iter().map(|particle| particle.log_weight).fold(f64::NEG_INFINITY, f64::max);
     particles.iter().map(|particle| exp(particle.log_weight - largest)).collect()
 }
 
-/// Draws the particles anew by their weights once these make fewer than half as many effective ones. It matters for the
-/// measure: a cell that only a particle of no account has seen counts as observed.
+/// Resamples the particles by their weights when fewer than half are effective. This matters for the measure: a cell that
+/// only a particle of negligible weight has seen counts as observed.
 fn resample(particles: &mut Vec<Particle>) {
     let weights = weights(particles);
     let (sum, squares) = (weights.iter().sum::<f64>(), weights.iter().map(|w| w * w).sum::<f64>());
@@ -105,7 +105,7 @@ fn resample(particles: &mut Vec<Particle>) {
     *particles = drawn;
 }
 
-/// The EMMI after each step, and the weighted mean of the particles' own mean information.
+/// Computes the EMMI after each step, and the weighted mean of the particles' own mean information.
 fn watch(steps: u32) -> Result<Vec<[f64; 2]>, Error> {
     let start = Pose::new(1.25, 1.25, 0.0)?;
     let mut robot = start;

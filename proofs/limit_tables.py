@@ -107,10 +107,14 @@ def panel(value, slopes):
 def main():
     tables = list(zip(*([fit(f) for f in functions(*place)] for place in panels())))
     print("//! The polynomials of the closed form. Written by `proofs/limit_tables.py`; do not edit.\n")
-    print("use super::Panel;")
+    print(
+        "/// The polynomial of a limit on one panel: its constant, scale 120, and the coefficients of `y`, `y^2`, ..., "
+        "scale 67."
+    )
+    print("pub(super) type Polynomial = (u128, &'static [i64]);")
     for name, rows in zip(WEIGHTS, tables):
         print(f"\n/// The panels of the limit with weight {name.lower()}, in the order of `locate`.")
-        print(f"pub(super) static {name}: [Panel; {len(rows)}] = [")
+        print(f"pub(super) static {name}: [Polynomial; {len(rows)}] = [")
         for row in rows:
             print(panel(*row))
         print("];")

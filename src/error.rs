@@ -1,9 +1,9 @@
-//! The one error type: what was wrong, where, and what is allowed.
+//! The one error type: the place, the value and the allowed range.
 
 use crate::real::Real;
 use core::fmt;
 
-/// Why an input was refused: the place, the value and the allowed range.
+/// The reason why an input was refused: the place, the value and the allowed range.
 ///
 /// ```
 /// use mean_information::cell::Cell;
@@ -17,63 +17,63 @@ pub enum Error {
     OutOfRange {
         /// The name of the argument.
         what: &'static str,
-        /// Its value.
+        /// The value.
         value: f64,
         /// The allowed range, in words.
         allowed: &'static str,
     },
     /// An item of a list outside its domain.
     Item {
-        /// What it is of which item.
+        /// The name of the quantity and of the items.
         what: &'static str,
-        /// Which item, from 0.
+        /// The index of the item, from 0.
         index: usize,
-        /// Its value.
+        /// The value.
         value: f64,
         /// The allowed range, in words.
         allowed: &'static str,
     },
-    /// Two certain observations that contradict each other.
+    /// A contradiction of two certain observations.
     Contradiction {
-        /// Which one, from 0, says 0.
+        /// The index, from 0, of an observation that is 0.
         free: usize,
-        /// Which one, from 0, says 1.
+        /// The index, from 0, of an observation that is 1.
         occupied: usize,
     },
     /// A cell of a map outside the domain of its encoding.
     Cell {
-        /// Row, from 0.
+        /// The row, from 0.
         row: usize,
-        /// Column, from 0.
+        /// The column, from 0.
         column: usize,
         /// The stored value.
         value: f64,
         /// The allowed range, in words.
         allowed: &'static str,
     },
-    /// The number of cells is not width times height.
+    /// A number of cells that is not width times height.
     CellCount {
-        /// Cells given.
+        /// The number of cells given.
         given: usize,
-        /// Columns.
+        /// The number of columns.
         width: usize,
-        /// Rows.
+        /// The number of rows.
         height: usize,
     },
-    /// More cells than the limit allows: to count them would not end, or to store them take too much memory.
+    /// A number of cells above the limit, which would take too long to count or too much memory to store.
     TooManyCells {
-        /// What has the cells.
+        /// The name of what has the cells.
         what: &'static str,
-        /// How many there are.
+        /// The number of cells.
         count: f64,
-        /// How many are allowed.
+        /// The largest number allowed.
         limit: u64,
     },
-    /// Not one weight for each item.
+    /// A number of weights that is not one for each item.
     WeightCount {
-        /// Weights given.
+        /// The number of weights given.
         given: usize,
-        /// What they are for.
+        /// The number of items.
         items: usize,
     },
 }
@@ -90,7 +90,7 @@ impl Error {
     }
 }
 
-/// The error if `value` is not positive and finite.
+/// Returns `value`, or the error if it is not positive and finite.
 pub(crate) fn positive<T: Real>(what: &'static str, value: T) -> Result<T, Error> {
     if value > T::zero() && value.is_finite() {
         Ok(value)
@@ -99,7 +99,7 @@ pub(crate) fn positive<T: Real>(what: &'static str, value: T) -> Result<T, Error
     }
 }
 
-/// The error if `value` is not finite.
+/// Returns `value`, or the error if it is not finite.
 pub(crate) fn finite<T: Real>(what: &'static str, value: T, allowed: &'static str) -> Result<T, Error> {
     if value.is_finite() { Ok(value) } else { Err(Error::out_of_range(what, value.widen(), allowed)) }
 }

@@ -5,14 +5,14 @@ use crate::error::Error;
 use crate::real::Real;
 use crate::rounded;
 
-/// The occupancy of a place from independent observations of it, each made with prior 1/2:
-/// `p = prod p_i / (prod p_i + prod (1 - p_i))`, that is, the log-odds `ln(p_i / (1 - p_i))` added up.
+/// Fuses independent observations of one place, each made with prior 1/2, into its occupancy
+/// `p = prod p_i / (prod p_i + prod (1 - p_i))`: the log-odds `ln(p_i / (1 - p_i))` add.
 ///
 /// Correctly rounded, ties to even (proved, [`fusion`](crate::book::fusion)): the order of the observations changes
 /// no bit.
 ///
-/// Special cases: 1/2 of no observations; observations of 1/2 change nothing; one observation is returned as it is; a
-/// certain one, 0 or 1, prevails over all that are not.
+/// Special cases: no observations give 1/2; observations of 1/2 change nothing; one observation is returned as it is; a
+/// certain observation, 0 or 1, outweighs all uncertain ones.
 ///
 /// # Errors
 /// [`Error::Item`] naming the first observation that is NaN or outside `[0, 1]`; [`Error::Contradiction`] if one says

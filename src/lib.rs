@@ -4,12 +4,12 @@
 //! says how certain and consistent an occupancy map is. Per cell, `I = 1 - H` with the Bernoulli entropy `H` in bits; the
 //! mean information is the sum of `I` over the number of observed cells, those with `p != 1/2`. It needs no ground truth, lies
 //! in `[0, 1]`, and unlike the entropy it does not depend on the size of the map, and little on its resolution while cells are
-//! small beside the sensor's noise.
+//! small compared with the sensor's noise.
 //!
 //! ```
 //! use mean_information::map::{Geometry, Grid, encoding::Probability};
 //!
-//! // Four rows of a wall (0.9) behind free space (0.1), with two cells nobody has seen.
+//! // Four rows: a wall (0.9) behind free space (0.1), and two unknown cells (0.5).
 //! let geometry = Geometry::new(0.05, [0.0, 0.0])?;
 //! let map = Grid::<Probability<f64>>::new(
 //!     3,
@@ -39,7 +39,7 @@
 //! The repository has three programs to begin with, in `examples/`: `measure`, `watch_emmi` and `own_sensor`.
 //!
 //! # What is where
-//! The modules follow the report.
+//! The rows follow the report; those of [`architecture`](book::architecture) follow the dependencies.
 //!
 //! | module | holds | equations |
 //! |---|---|---|
@@ -47,18 +47,18 @@
 //! | [`cell`] | entropy and information of one cell, correctly rounded | 1, 3 |
 //! | [`tally`] | the exact, mergeable sums over a map | 2, 4 |
 //! | [`map`] | grids, cell encodings, pooling | |
-//! | [`sensor`] | inverse sensor models: what a range reading says of a point | 5 |
+//! | [`sensor`] | inverse sensor models: the occupancy that a range reading gives to a point | 5 |
 //! | [`room`] | maps of a circular room, polar and Cartesian | 4, 5 |
 //! | [`scan`] | maps from range scans | |
 //! | [`fusion`] | observations of one cell, fused | |
 //! | [`expected`] | the expected map of a filter's particles | |
-//! | [`limit`] | what the mean information of one scan tends to as cells shrink | 6, 7 |
+//! | [`limit`] | the limit of the mean information of one scan as cells shrink | 6, 7 |
 //! | [`estimate`] | results with an estimated error, and results with a proved enclosure | |
-//! | [`scalar`] | what integrands are written in: floats, intervals, rectangles | |
+//! | [`scalar`] | the numbers of integrands: floats, intervals, rectangles | |
 //! | [`interval`] | intervals that contain the exact result of every operation | |
 //! | [`quadrature`] | integrals of functions of one variable, with the error estimated or proved | |
 //! | [`real`] | the two formats of floats | |
-//! | [`operations`] | what a port of this measure implements, by name | |
+//! | [`operations`] | the operations that a port of this measure implements, by name | |
 //! | [`book`] | the derivation, chapter by chapter, with every claim executed | |
 //!
 //! # What it promises
@@ -73,12 +73,12 @@
 //!
 //! # What it does not do
 //! It reads no files and draws no pictures; the command `meaninfo` (package `mean-information-cli`) does. It makes no maps
-//! for robots: rooms, scans at known poses and expected maps are there to show and to test the measure. It compares with no
-//! ground truth: a map that is certain and wrong has a high mean information.
+//! for robots: rooms, scans at known poses and expected maps are there to show and to test the measure. It does not compare
+//! with ground truth: a map that is certain and wrong has a high mean information.
 //!
 //! # Features
-//! * `std` (default): maps of occupancies in floats are measured by the vector unit that the processor turns out to have, to
-//!   the same bits, many times as fast (`benches/RESULTS.md`). Without it the crate is `no_std` + `alloc`.
+//! * `std` (default): maps of occupancies in floats are measured by the vector unit of the processor it runs on, to the same
+//!   bits, many times as fast (`benches/RESULTS.md`). Without it the crate is `no_std` + `alloc`.
 //! * `rayon`: maps, rooms, scans' maps and expected maps are measured by several threads, to the same bits
 //!   (`Grid::par_tally` and others).
 //! * `vectors`: arguments with their exact results for every operation, as text, to check an implementation against.
@@ -118,9 +118,9 @@ pub mod vectors;
 
 pub use error::Error;
 pub use real::Real;
-pub use tally::{ExactSum, Information, Tally};
+pub use tally::{ExactSum, InformationSum, Tally};
 
-/// The examples of the README.
+/// The README, whose examples are tests.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 pub struct Readme;

@@ -8,9 +8,9 @@ use num_traits::Zero;
 
 /// The occupancy that a reading of a range sensor gives to points along its beam.
 ///
-/// Implement it to build maps from a model of your own. Maps take what it gives for exact
-/// ([`sensor`](crate::book::sensor)). Builders ask for the occupancy where the centres of cells, or samples, are; at 0;
-/// and [`ScanMap::insert`](crate::scan::ScanMap::insert) at the side of a cell, too.
+/// Implement it to build maps from a model of your own. Maps take its values as exact
+/// ([`sensor`](crate::book::sensor)). Builders ask for the occupancy at the centres of cells, or at samples, and at 0;
+/// [`ScanMap::insert`](crate::scan::ScanMap::insert) also asks at the side of a cell.
 ///
 /// ```
 /// use mean_information::sensor::{InverseSensorModel, SteppedSensor};
@@ -23,23 +23,23 @@ pub trait InverseSensorModel {
     /// The type of distances and occupancies.
     type Float: Real;
 
-    /// The occupancy at distance `rho` (metres) from the sensor, in `[0, 1]`; NaN at NaN. [`GaussianSensor`]'s is
-    /// correctly rounded, [`SteppedSensor`]'s exact.
+    /// Returns the occupancy at distance `rho` (metres) from the sensor, in `[0, 1]`; NaN at NaN. That of
+    /// [`GaussianSensor`] is correctly rounded, that of [`SteppedSensor`] exact.
     fn occupancy(&self, rho: Self::Float) -> Self::Float;
 
-    /// A distance (metres) beyond which nothing is observed: `occupancy` is exactly 1/2 at every greater `rho`.
+    /// Returns a distance (metres) beyond which nothing is observed: `occupancy` is exactly 1/2 at every greater `rho`.
     fn reach(&self) -> Self::Float;
 
-    /// A distance (metres) up to which `occupancy` is exactly what it is at 0. Grid builders count those cells at once, and
-    /// [`ScanMap::insert`](crate::scan::ScanMap::insert) tells them the occupancy at 0 without asking for theirs.
+    /// Returns a distance (metres) up to which `occupancy` is exactly that at 0. Grid builders count those cells at once,
+    /// and [`ScanMap::insert`](crate::scan::ScanMap::insert) gives them the occupancy at 0 without asking for theirs.
     ///
-    /// Any such distance will do; the default is 0. One that is too far gives wrong maps.
+    /// Any such distance is valid; the default is 0. A distance that is too large gives wrong maps.
     fn plateau(&self) -> Self::Float {
         Self::Float::zero()
     }
 }
 
-/// Eq. 5: a range `z` read with Gaussian noise of standard deviation `σ`,
+/// The model of Eq. 5: a range `z` read with Gaussian noise of standard deviation `σ`,
 /// `p(ρ) = exp(-((ρ - z) / (σ √2))^2)` for `ρ <= z + σ √(ln 4)`, and 1/2 beyond.
 ///
 /// ```
@@ -57,7 +57,7 @@ pub struct GaussianSensor<T> {
 }
 
 impl<T: Real> GaussianSensor<T> {
-    /// A reading of `range` with standard deviation `sigma`, both in metres.
+    /// Creates the model of a reading of `range` with standard deviation `sigma`, both in metres.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if one of them is not positive and finite.
@@ -65,12 +65,12 @@ impl<T: Real> GaussianSensor<T> {
         Ok(Self { range: positive("range", range)?, sigma: positive("sigma", sigma)? })
     }
 
-    /// `z`, in metres.
+    /// Returns the range `z`, in metres.
     pub fn range(&self) -> T {
         self.range
     }
 
-    /// `σ`, in metres.
+    /// Returns the standard deviation `σ`, in metres.
     pub fn sigma(&self) -> T {
         self.sigma
     }
@@ -79,9 +79,9 @@ impl<T: Real> GaussianSensor<T> {
 impl<T: Real> InverseSensorModel for GaussianSensor<T> {
     type Float = T;
 
-    /// `p(ρ)`, correctly rounded (proved): as if computed exactly from the three floats and rounded once.
+    /// Computes `p(ρ)`, correctly rounded (proved): as if computed exactly from the three floats and rounded once.
     ///
-    /// Any float will do for `ρ`: before the sensor (`ρ < 0`) the formula goes on, to 0 at `-inf`; 1/2 at `inf`; NaN at NaN.
+    /// `ρ` may be any float: before the sensor (`ρ < 0`) the formula goes on, to 0 at `-inf`; 1/2 at `inf`; NaN at NaN.
     fn occupancy(&self, rho: T) -> T {
         if rho.is_nan() {
             return rho;
@@ -94,8 +94,8 @@ impl<T: Real> InverseSensorModel for GaussianSensor<T> {
         if rho > self.range && p <= T::HALF { T::HALF } else { p }
     }
 
-    /// `z + σ √(ln 4)`, within 2 ulp (proved in [`rounding`](crate::book::rounding)), and not short of it: `occupancy` is 1/2 at
-    /// the next float and at every one beyond. Infinite where the sum overflows.
+    /// Computes `z + σ √(ln 4)`, within 2 ulp and never too short (proved in [`rounding`](crate::book::rounding)):
+    /// `occupancy` is 1/2 at every greater float. Infinite where the sum overflows.
     fn reach(&self) -> T {
         let two = T::one() + T::one();
         let mut reach = self.range + self.sigma * sqrt(two * ln(two));
@@ -111,7 +111,8 @@ impl<T: Real> InverseSensorModel for GaussianSensor<T> {
         reach
     }
 
-    /// Free space so far from the obstacle that `p` is below every float, or all of it if `z` is below `σ` so far that `p` is 1.
+    /// Returns the distance up to which `p` underflows to 0; the whole free space if `z` is so far below `σ` that `p` rounds
+    /// to 1.
     fn plateau(&self) -> T {
         let nearest = self.occupancy(T::zero());
         // e^-r is below half of the smallest number beyond r = n ln 2. Five roundings, of ln 2, its product, the root, the
@@ -142,7 +143,7 @@ impl<T: Real> InverseSensorModel for GaussianSensor<T> {
     }
 }
 
-/// Steps: free up to the obstacle, occupied over its thickness, unknown behind it
+/// The model of steps: free up to the obstacle, occupied over its thickness, unknown behind it
 /// (the inverse range sensor model of Thrun, Burgard and Fox, *Probabilistic Robotics*, table 9.2).
 ///
 /// ```
@@ -160,8 +161,8 @@ pub struct SteppedSensor<T> {
 }
 
 impl<T: Real> SteppedSensor<T> {
-    /// A reading of `range` at an obstacle of the given `thickness` (metres) about it, with the occupancies of free space and
-    /// of the obstacle. The obstacle lies from `range - thickness / 2` to `range + thickness / 2`, each rounded once, ends
+    /// Creates the model of a reading of `range` (metres) at an obstacle of the given `thickness` (metres), with the
+    /// occupancies of free space and of the obstacle. The obstacle lies from `range - thickness / 2` to `range + thickness / 2`, each rounded once, ends
     /// included.
     ///
     /// # Errors
@@ -179,7 +180,7 @@ impl<T: Real> SteppedSensor<T> {
         Ok(Self { near: range - half, far: range + half, free, occupied })
     }
 
-    /// The stretches before the sensor's reach that are not unknown, nearest first, each with its occupancy.
+    /// Returns the stretches of a beam that are observed, nearest first, each with its occupancy.
     pub(crate) fn observed(&self) -> impl Iterator<Item = ([T; 2], T)> {
         let near = self.near.max(T::zero());
         let stretches = [([T::zero(), near], self.free), ([near, self.far], self.occupied)];

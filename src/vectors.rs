@@ -1,5 +1,5 @@
-//! The vectors: for every operation of [`operations`](crate::operations) arguments and exact results, from other tools
-//! than this crate. Their form is told in `vectors/README.md`.
+//! The vectors: arguments and exact results for every operation of [`operations`](crate::operations), computed by other
+//! tools than this crate. `vectors/README.md` describes their form.
 
 macro_rules! files {
     ($($operation:literal),* $(,)?) => {
@@ -7,7 +7,7 @@ macro_rules! files {
     };
 }
 
-/// The name of each operation, and its file: JSON.
+/// The name of each operation with the text of its file, JSON.
 ///
 /// ```
 /// use mean_information::{operations::OPERATIONS, vectors::FILES};

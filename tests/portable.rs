@@ -3,7 +3,7 @@
 use mean_information::expected::Hypotheses;
 use mean_information::map::encoding::{Percent, Probability};
 use mean_information::map::{Geometry, Grid, Histogram};
-use mean_information::{Information, Tally, cell::Cell};
+use mean_information::{InformationSum, Tally, cell::Cell};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -23,11 +23,11 @@ proptest! {
         arrived.merge(&tally(&there));
         prop_assert_eq!(arrived, tally(&[&here[..], &there].concat()));
 
-        let text = serde_json::to_string(&Information::from_occupancies(&here)).unwrap();
-        let mut arrived: Information<f64> = serde_json::from_str(&text).unwrap();
-        prop_assert_eq!(&arrived, &Information::from_occupancies(&here));
-        arrived.merge(&Information::from_occupancies(&there));
-        prop_assert_eq!(arrived, Information::from_occupancies(&[here, there].concat()));
+        let text = serde_json::to_string(&InformationSum::from_occupancies(&here)).unwrap();
+        let mut arrived: InformationSum<f64> = serde_json::from_str(&text).unwrap();
+        prop_assert_eq!(&arrived, &InformationSum::from_occupancies(&here));
+        arrived.merge(&InformationSum::from_occupancies(&there));
+        prop_assert_eq!(arrived, InformationSum::from_occupancies(&[here, there].concat()));
     }
 }
 
@@ -74,9 +74,9 @@ fn the_text_is_readable_anywhere() {
     assert_eq!(serde_json::from_str::<Tally<f32>>(empty).unwrap(), Tally::new());
 
     let expected = format!(r#"{{"format":"f64","information":"{one}","unknown":1,"observed":1}}"#);
-    assert_eq!(serde_json::to_string(&Information::from(&tally(&[0.5, 0.0]))).unwrap(), expected);
+    assert_eq!(serde_json::to_string(&InformationSum::from(&tally(&[0.5, 0.0]))).unwrap(), expected);
     let empty = r#"{"format":"f32","information":"0","unknown":0,"observed":0}"#;
-    assert_eq!(serde_json::from_str::<Information<f32>>(empty).unwrap(), Information::new());
+    assert_eq!(serde_json::from_str::<InformationSum<f32>>(empty).unwrap(), InformationSum::new());
 }
 
 #[test]
@@ -111,19 +111,19 @@ fn a_tally_that_cannot_be_is_refused() {
 
 #[test]
 fn information_that_cannot_be_is_refused() {
-    let good = serde_json::to_value(Information::from(&tally(&[0.25, 0.5, 1.0]))).unwrap();
+    let good = serde_json::to_value(InformationSum::from(&tally(&[0.25, 0.5, 1.0]))).unwrap();
     let refused = |key: &str, value: serde_json::Value| {
         let mut bad = good.clone();
         bad[key] = value;
-        serde_json::from_value::<Information<f64>>(bad).unwrap_err().to_string()
+        serde_json::from_value::<InformationSum<f64>>(bad).unwrap_err().to_string()
     };
-    assert!(serde_json::from_value::<Information<f64>>(good.clone()).is_ok());
+    assert!(serde_json::from_value::<InformationSum<f64>>(good.clone()).is_ok());
     assert_eq!(refused("format", "f32".into()), "a tally of f32 cells, wanted is f64");
     assert_eq!(refused("observed", 1.into()), "the information is at most 1 bit per observed cell");
     assert_eq!(refused("unknown", u64::MAX.into()), "a tally holds at most 2^64 - 1 cells");
     assert!(refused("entropy", "0".into()).contains("unknown field"));
     let mut least = good.clone();
     (least["format"], least["information"]) = ("f32".into(), "1".into());
-    let error = serde_json::from_value::<Information<f32>>(least).unwrap_err().to_string();
+    let error = serde_json::from_value::<InformationSum<f32>>(least).unwrap_err().to_string();
     assert_eq!(error, "the sums are no sums of numbers of f32");
 }

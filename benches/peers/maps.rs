@@ -51,9 +51,9 @@ impl<'a> Map<'a> {
     ) -> Self {
         let file = folder.join(name.replace(' ', "-"));
         fs::write(&file, cells.iter().flat_map(write).collect::<Vec<u8>>()).expect("a folder to write to");
-        let mean_information = E::information(cells).mean().into();
+        let mean_information = E::information_sum(cells).mean().into();
         let tally = || E::tally(black_box(cells)).mean_information().into();
-        let mean = || E::information(black_box(cells)).mean().into();
+        let mean = || E::information_sum(black_box(cells)).mean().into();
         assert_eq!(mean_information, tally());
         let ours: [(_, Call); 2] =
             [("ours, information only", Box::new(mean)), ("ours, tally", Box::new(tally))];

@@ -2,8 +2,8 @@
 #![doc = include_str!("../../docs/README.md")]
 #![doc = include_str!("typeset.html")]
 
-/// Chapters from `docs/`, in the order of reading: their links lead to items here, where on their own they lead to files;
-/// figures travel in the page, since rustdoc copies no files. A doctest that fails is named by the line of its chapter, plus
+/// Makes a module of each chapter in `docs/`, in the order of reading. In `docs/` the links lead to files, here to items;
+/// figures are part of the page, since rustdoc copies no files. A failing doctest is named by the line of its chapter plus
 /// the number of lines of `links.md`.
 macro_rules! chapters {
     ($($name:ident $(shows $($figure:literal)+)?;)*) => {$(

@@ -5,20 +5,22 @@ use crate::map::{Encoding, Geometry, Grid};
 use alloc::vec::Vec;
 use num_traits::float::FloatCore;
 
-/// Origins may be this part of a cell off the lattice: more than file formats round them by, and less than matters.
+/// The largest distance of an origin from the lattice, in cells: more than file formats round by, and too little to matter.
 const TOLERANCE: f64 = 1.0 / 1024.0;
 
-/// The least grid that holds several maps, and where in it each begins.
+/// The smallest grid that holds several maps, and the place of each in it.
 #[derive(Clone, Debug)]
 pub(super) struct Alignment {
     pub(super) geometry: Geometry,
     pub(super) width: usize,
     pub(super) height: usize,
-    /// Of each map, the column and row of its first cell.
+    /// The column and row of the first cell of each map.
     pub(super) offsets: Vec<[usize; 2]>,
 }
 
 impl Alignment {
+    /// Finds the smallest grid that holds the maps.
+    ///
     /// # Errors
     /// [`Error::Item`] naming a map of another resolution or yaw than the first, or whose origin is not a whole
     /// number of cells from the others'; [`Error::TooManyCells`].
@@ -34,7 +36,7 @@ impl Alignment {
                 return refuse("yaw of map", map.geometry().yaw(), "that of map 0");
             }
         }
-        // A map without cells lies nowhere.
+        // A map without cells has no place.
         let placed = || maps.iter().filter(|map| !map.cells().is_empty());
         let lowest = |k: usize| placed().map(|map| map.geometry().origin()[k]).reduce(f64::min);
         let (Some(x), Some(y)) = (lowest(0), lowest(1)) else {

@@ -1,4 +1,4 @@
-//! Hypotheses with their weights, and the expected map of them.
+//! Hypotheses with their weights, and their expected map.
 
 use super::alignment::Alignment;
 use super::marginals::{self, Marginals};
@@ -18,10 +18,10 @@ use num_traits::float::FloatCore;
 #[cfg(feature = "rayon")]
 use rayon::prelude::*;
 
-/// Maps of one place, each with a weight: the particles of a filter.
+/// The hypotheses about one place: maps, each with a weight, such as the particles of a filter.
 ///
-/// Beyond its own extent a map is unknown. All share one lattice of cells; weights need not add up to 1. Means are exact
-/// before they are rounded ([`expected`](crate::book::expected)).
+/// Beyond its own extent a map is unknown. All maps share one lattice of cells; weights need not add up to 1. Means are
+/// exact before they are rounded ([`expected`](crate::book::expected)).
 ///
 /// ```
 /// use mean_information::expected::Hypotheses;
@@ -44,7 +44,7 @@ pub struct Hypotheses<'a, E: Encoding> {
     max_cells: u64,
 }
 
-/// An expected map, and the sums over its cells. Memory: one float for a cell.
+/// An expected map with the sums over its cells. Memory: one float for each cell.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExpectedMap<T: Real> {
     grid: Grid<Probability<T>>,
@@ -52,12 +52,12 @@ pub struct ExpectedMap<T: Real> {
 }
 
 impl<T: Real> ExpectedMap<T> {
-    /// The weighted means of the occupancies, each rounded once to nearest.
+    /// Returns the map of weighted mean occupancies, each rounded once to nearest.
     pub fn grid(&self) -> &Grid<Probability<T>> {
         &self.grid
     }
 
-    /// The sums over the expected map; its mean information is the EMMI.
+    /// Returns the sums over the expected map; their mean information is the EMMI.
     ///
     /// A cell counts as observed if its exact mean is not 1/2, even where the float nearest to it is. Entropy and
     /// information of a cell are those of the exact mean within `2^-63` bits, whatever the format, so that EMMI is
@@ -69,10 +69,10 @@ impl<T: Real> ExpectedMap<T> {
 }
 
 impl<'a, E: Encoding> Hypotheses<'a, E> {
-    /// The most cells an expected map may have unless the caller says otherwise.
+    /// The default limit on the cells of an expected map.
     pub const MAX_CELLS: u64 = 1 << 28;
 
-    /// Maps and their weights, in the same order.
+    /// Creates the hypotheses from maps and their weights, in the same order.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if there is no map or no weight above 0; [`Error::WeightCount`] if there is not one weight
@@ -85,13 +85,14 @@ impl<'a, E: Encoding> Hypotheses<'a, E> {
         Ok(Self { maps, weights, max_cells: Self::MAX_CELLS })
     }
 
-    /// Refuses expected maps of more cells than this; [`Self::MAX_CELLS`] otherwise.
+    /// Sets the largest number of cells of an expected map; the default is [`Self::MAX_CELLS`].
     #[must_use]
     pub fn with_max_cells(self, max_cells: u64) -> Self {
         Self { max_cells, ..self }
     }
 
-    /// The marginal of each cell over the hypotheses, the *linear opinion pool* `sum w_i p_i / sum w_i`.
+    /// Computes the expected map: the marginal of each cell over the hypotheses, the *linear opinion pool*
+    /// `sum w_i p_i / sum w_i`.
     ///
     /// The sums are exact and rounded once, so that a cell that is unknown in all maps is exactly 1/2, and neither
     /// order nor scale of the weights changes a bit. `p_i` is [`Encoding::occupancy`].
@@ -99,10 +100,10 @@ impl<'a, E: Encoding> Hypotheses<'a, E> {
     /// # Errors
     /// [`Error::Item`] naming a map of another resolution or yaw than the first, or whose origin is not a whole
     /// number of cells from the others' (within 1/1024, for the rounding of file formats); [`Error::TooManyCells`] if
-    /// the least grid that holds all maps exceeds the limit.
+    /// the smallest grid that holds all maps exceeds the limit.
     pub fn expected_map(&self) -> Result<ExpectedMap<E::Float>, Error> {
         let alignment = self.alignment()?;
-        let mut cells = self.room(&alignment)?;
+        let mut cells = self.reserved(&alignment)?;
         let stack = Stack::new(self.maps, &alignment);
         let tally =
             self.sums(&stack, 0..stack.cells(), |mean, count| cells.resize(cells.len() + count, mean))?;
@@ -110,13 +111,13 @@ impl<'a, E: Encoding> Hypotheses<'a, E> {
         Ok(ExpectedMap { grid: Grid::new(width, height, geometry, cells)?, tally })
     }
 
-    /// The sums over the expected map, without the map: the bits of [`ExpectedMap::tally`].
+    /// Computes the sums over the expected map without the map: the bits of [`ExpectedMap::tally`].
     ///
-    /// Memory: nothing for a cell; 49 to 56 bytes for a map, 16 for its weight, and at most 80 KB. Cells of which all maps
-    /// store the same are counted by their value, and take little more than reading them.
+    /// Memory: nothing for a cell; 49 to 56 bytes for a map, 16 for its weight, and at most 80 KB. Cells on which all maps
+    /// agree are counted by their value, which takes little more time than reading them.
     ///
     /// # Errors
-    /// As [`Self::expected_map`], of which the limit holds, too.
+    /// Those of [`Self::expected_map`], with the same limit on cells.
     ///
     /// ```
     /// use mean_information::expected::Hypotheses;
@@ -136,10 +137,10 @@ impl<'a, E: Encoding> Hypotheses<'a, E> {
         self.sums(&stack, 0..stack.cells(), |_, _| ())
     }
 
-    /// [`Self::expected_tally`] by as many threads as rayon has: the same bits for any number of them.
+    /// Computes [`Self::expected_tally`] on rayon's threads: the same bits for any number of them.
     ///
     /// # Errors
-    /// As [`Self::expected_tally`].
+    /// Those of [`Self::expected_tally`].
     ///
     /// ```
     /// use mean_information::expected::Hypotheses;
@@ -157,7 +158,8 @@ impl<'a, E: Encoding> Hypotheses<'a, E> {
         parts::for_threads(stack.cells()).map(|cells| self.sums(&stack, cells, |_, _| ())).sum()
     }
 
-    /// The sums over these cells; `each` is handed their means in order, and of how many neighbours.
+    /// Computes the sums over these cells. Calls `each` with the nearest float to the mean, and the number of neighbouring
+    /// cells that have it, in order.
     fn sums(
         &self,
         stack: &Stack<E>,
@@ -178,15 +180,15 @@ impl<'a, E: Encoding> Hypotheses<'a, E> {
         Ok(marginals.into_tally())
     }
 
-    /// The *log-linear pool*: the weighted mean of the log-odds, `sum w_i l_i / sum w_i`, the exact mean rounded once
-    /// to nearest.
+    /// Computes the *log-linear pool*: the weighted mean of the log-odds, `sum w_i l_i / sum w_i`, exactly, rounded once to
+    /// nearest.
     ///
-    /// It is not the expected map: no probability law has it for a marginal, and certainty in one map outweighs doubt
-    /// in all others. MRPT averages its particles' maps so, in `f32`, and cuts the result to a byte. `l_i` is
+    /// It is not the expected map: it is the marginal of no probability law, and certainty in one map outweighs doubt in
+    /// all others. MRPT averages its particles' maps in this way, in `f32`, and truncates the result to a byte. `l_i` is
     /// [`Encoding::log_odds`].
     ///
     /// # Errors
-    /// As [`Self::expected_map`]; [`Error::Cell`] if a cell is certainly free in one map and certainly occupied in
+    /// Those of [`Self::expected_map`]; [`Error::Cell`] if a cell is certainly free in one map and certainly occupied in
     /// another, both of positive weight.
     ///
     /// ```
@@ -202,12 +204,12 @@ impl<'a, E: Encoding> Hypotheses<'a, E> {
     /// ```
     pub fn log_linear_pool(&self) -> Result<Grid<LogOdds<E::Float>>, Error> {
         let alignment = self.alignment()?;
-        let mut cells = self.room(&alignment)?;
+        let mut cells = self.reserved(&alignment)?;
         let (stack, mut finite) = (Stack::new(self.maps, &alignment), Vec::with_capacity(self.maps.len()));
         stack.each_run(0..stack.cells(), |run| {
             let stored = match run {
                 Run::Agreed(stored, count) => {
-                    // Of whatever weights; and never -0.
+                    // The mean of equal values, for any weights; adding 0 turns -0 into 0.
                     let l = E::log_odds(stored).unwrap_or(E::Float::zero()) + E::Float::zero();
                     cells.resize(cells.len() + count, l);
                     return Ok(());
@@ -239,7 +241,7 @@ impl<'a, E: Encoding> Hypotheses<'a, E> {
         Grid::new(width, height, geometry, cells)
     }
 
-    /// The weighted mean of the maps' own mean information (Eq. 4, bits per observed cell): what EMMI would be if the
+    /// Computes the weighted mean of the maps' own mean information (Eq. 4, bits per observed cell): the EMMI if the
     /// hypotheses agreed in every cell.
     ///
     /// The exact mean of the floats of [`Tally::mean_information`], rounded once to nearest (proved,
@@ -260,12 +262,13 @@ impl<'a, E: Encoding> Hypotheses<'a, E> {
         self.weights.mean(&values).nearest()
     }
 
+    /// Aligns the maps, within the limit.
     fn alignment(&self) -> Result<Alignment, Error> {
         Alignment::of(self.maps, self.max_cells)
     }
 
-    /// Memory for as many cells as the grid has.
-    fn room<C>(&self, alignment: &Alignment) -> Result<Vec<C>, Error> {
+    /// Reserves memory for the cells of the grid, or refuses.
+    fn reserved<C>(&self, alignment: &Alignment) -> Result<Vec<C>, Error> {
         let (mut cells, count) = (Vec::new(), alignment.width as u128 * alignment.height as u128);
         let reserved = usize::try_from(count).is_ok_and(|count| cells.try_reserve_exact(count).is_ok());
         if reserved { Ok(cells) } else { Err(Error::too_many_cells(count, self.max_cells)) }

@@ -12,7 +12,7 @@ use alloc::vec::Vec;
 use core::cmp::Ordering;
 use num_traits::Zero;
 
-/// The marginal of a cell: the nearest float, and what the sums take.
+/// The marginal of a cell: the nearest float, the state, and entropy with information as the sums need them.
 #[derive(Clone, Copy)]
 struct Marginal<T> {
     nearest: T,
@@ -21,7 +21,7 @@ struct Marginal<T> {
 }
 
 impl<T: Real> Marginal<T> {
-    /// Of an exact mean of occupancies.
+    /// Computes the marginal from an exact mean of occupancies.
     fn of(mean: &Mean<'_>) -> Self {
         let beside_half = mean.beside_half();
         let state = match beside_half.sign() {
@@ -31,7 +31,7 @@ impl<T: Real> Marginal<T> {
         };
         let first = mean.leading();
         let nearest = first.map_or(T::zero(), |(leading, cut)| leading.nearest(cut));
-        // Of a certain mean, 0 or 1, nothing is left.
+        // A certain mean, 0 or 1, has no smaller probability to go by.
         let minor = || {
             let minor = if state == State::Free { first } else { mean.complement().leading() };
             minor.map_or(mean::CERTAIN, |(leading, _)| mean::of_minor(leading))
@@ -46,23 +46,23 @@ impl<T: Real> Marginal<T> {
     }
 }
 
-/// The sums over cells, to which they are added one after another.
+/// The sums over the marginals of cells.
 pub(super) struct Marginals<'a, E: Encoding> {
     weights: &'a Weights,
     tally: Tally<E::Float>,
-    /// Cells on which all agree, by what is stored.
+    /// The counts of cells on which all maps agree, by their stored value.
     agreed: Repeated<E::Stored>,
     occupancies: Vec<E::Float>,
 }
 
 impl<'a, E: Encoding> Marginals<'a, E> {
-    /// For so many cells at most.
+    /// Creates empty sums for at most `cells` cells.
     pub(super) fn new(weights: &'a Weights, cells: u64) -> Self {
         let agreed = Repeated::new(cells, E::unknown());
         Self { weights, tally: Tally::new(), agreed, occupancies: Vec::new() }
     }
 
-    /// Counts a cell of which the maps store this; the nearest float to its mean.
+    /// Adds a cell, of which the maps store these values. Returns the nearest float to its mean.
     pub(super) fn add(&mut self, stored: &[E::Stored]) -> E::Float {
         self.occupancies.clear();
         self.occupancies.extend(stored.iter().filter_map(|&stored| E::occupancy(stored)));
@@ -71,7 +71,7 @@ impl<'a, E: Encoding> Marginals<'a, E> {
         marginal.nearest
     }
 
-    /// Counts cells of which all maps store the same; their means are [`nearest`].
+    /// Adds cells of which all maps store the same value; their mean is [`nearest`].
     #[inline]
     pub(super) fn add_agreed(&mut self, stored: E::Stored, count: u64) {
         if let Some((stored, count)) = self.agreed.add(stored, E::value(stored).to_bits(), count) {
@@ -79,7 +79,7 @@ impl<'a, E: Encoding> Marginals<'a, E> {
         }
     }
 
-    /// The sums.
+    /// Returns the sums.
     pub(super) fn into_tally(self) -> Tally<E::Float> {
         let mut tally = self.tally;
         self.agreed.into_counts().for_each(|(stored, count)| add_agreed::<E>(&mut tally, stored, count));
@@ -87,12 +87,13 @@ impl<'a, E: Encoding> Marginals<'a, E> {
     }
 }
 
+/// Adds `count` cells with this stored value to a tally.
 fn add_agreed<E: Encoding>(tally: &mut Tally<E::Float>, stored: E::Stored, count: u64) {
     let marginal = Marginal::<E::Float>::of(&Mean::of_one(nearest::<E>(stored), &Natural::from(1)));
     tally.add_fixed(marginal.state, marginal.both, count);
 }
 
-/// The mean where all maps store this: the occupancy, and never `-0`.
+/// Returns the mean where all maps store the same value: its occupancy, and never `-0`.
 pub(super) fn nearest<E: Encoding>(stored: E::Stored) -> E::Float {
     E::occupancy(stored).unwrap_or(E::Float::HALF) + E::Float::zero()
 }

@@ -1,4 +1,4 @@
-//! Maps laid over another: what each stores of a cell, and runs of cells of which all store the same.
+//! Maps on top of each other: the stored values of a cell, and runs of cells on which all maps agree.
 
 use super::alignment::Alignment;
 use crate::error::Error;
@@ -8,37 +8,38 @@ use alloc::{vec, vec::Vec};
 use core::iter::repeat;
 use core::ops::Range;
 
-/// Columns looked at together: the nearest cache holds them, of many maps of bytes.
+/// The number of columns that are compared at once: in many maps of bytes they fit in the first-level cache.
 const STRETCH: usize = 1 << 10;
 
-/// Cells in a row.
+/// A run of neighbouring cells in a row.
 pub(super) enum Run<'a, S> {
-    /// So many, of which all maps store this.
+    /// The value that all maps store, and the number of cells.
     Agreed(S, usize),
-    /// One, of which the maps store this.
+    /// The values that the maps store of one cell.
     Mixed(&'a [S]),
 }
 
-/// Maps on one lattice, unknown beyond their own extents.
+/// The maps on their common lattice, unknown beyond their own extents.
 pub(super) struct Stack<'a, E: Encoding> {
     maps: &'a [Grid<E>],
     alignment: &'a Alignment,
 }
 
-/// Of a stretch of a row what a map stores, and at which of its cells it begins to.
+/// The part of a map in a stretch of a row: the first of its cells within the stretch, and the stored values from there.
 type Part<'a, E> = (usize, &'a [<E as Encoding>::Stored]);
 
 impl<'a, E: Encoding> Stack<'a, E> {
+    /// Creates the stack of aligned maps.
     pub(super) fn new(maps: &'a [Grid<E>], alignment: &'a Alignment) -> Self {
         Self { maps, alignment }
     }
 
-    /// How many cells the grid has that holds them all.
+    /// Returns the number of cells of the grid that holds all maps.
     pub(super) fn cells(&self) -> u64 {
         self.alignment.width as u64 * self.alignment.height as u64
     }
 
-    /// Hands these cells to `of`, by their numbers row by row, in runs.
+    /// Calls `of` with the runs of these cells, which are numbered row by row.
     pub(super) fn each_run(
         &self,
         cells: Range<u64>,
@@ -58,7 +59,7 @@ impl<'a, E: Encoding> Stack<'a, E> {
             while at < first.len() {
                 if differs[at] {
                     for (stored, &(start, part)) in stored.iter_mut().zip(&parts) {
-                        // Before its start it has no cell either: the difference wraps around.
+                        // Before the start there is no cell: the difference wraps around, beyond the part.
                         *stored = part.get(at.wrapping_sub(start)).copied().unwrap_or(E::unknown());
                     }
                     of(Run::Mixed(&stored))?;
@@ -74,7 +75,7 @@ impl<'a, E: Encoding> Stack<'a, E> {
         Ok(())
     }
 
-    /// What each map has of these columns of a row.
+    /// Returns the part of each map in these columns of a row.
     fn parts(&self, row: usize, columns: &Range<usize>) -> impl Iterator<Item = Part<'a, E>> {
         self.maps.iter().zip(&self.alignment.offsets).map(move |(map, &[left, lower])| {
             let whole = row.checked_sub(lower).and_then(|row| map.row(row)).unwrap_or(&[]);
@@ -84,7 +85,7 @@ impl<'a, E: Encoding> Stack<'a, E> {
     }
 }
 
-/// What the first map stores, and where one of the others does not store the same.
+/// Writes the values of the first map to `first`, and to `differs` where another map stores another value.
 fn compare<E: Encoding>(parts: &[Part<E>], first: &mut [E::Stored], differs: &mut [bool]) {
     first.fill(E::unknown());
     differs.fill(false);
@@ -101,7 +102,7 @@ fn compare<E: Encoding>(parts: &[Part<E>], first: &mut [E::Stored], differs: &mu
     }
 }
 
-/// Without a branch, by the processor's vector unit.
+/// Marks where `others` differ from `first`, without branches, so that compilers use vector instructions.
 fn mark<S: Copy + PartialEq>(differs: &mut [bool], first: &[S], others: impl Iterator<Item = S>) {
     for ((differs, &first), other) in differs.iter_mut().zip(first).zip(others) {
         *differs |= first != other;

@@ -7,13 +7,13 @@ use crate::rounded::{Leading, Natural, leading, odd_parts, quotient};
 use alloc::vec::Vec;
 use core::cmp::Ordering;
 
-/// The mean of `values` with the given weights, `sum w_i x_i / sum w_i`.
+/// Computes the weighted mean of `values`, `sum w_i x_i / sum w_i`.
 ///
 /// Correctly rounded, ties to even (proved, [`expected`](crate::book::expected)): neither order nor scale of the
 /// weights changes a bit.
 ///
 /// # Errors
-/// As [`Hypotheses::new`](super::Hypotheses::new) on the weights; [`Error::Item`] naming the first value that is not
+/// Those of [`Hypotheses::new`](super::Hypotheses::new) on the weights; [`Error::Item`] naming the first value that is not
 /// finite.
 ///
 /// ```
@@ -30,10 +30,10 @@ pub fn weighted_mean<T: Real>(weights: &[f64], values: &[T]) -> Result<T, Error>
     Ok(weights.mean(values).nearest())
 }
 
-/// Weights and their sum, without rounding.
+/// The weights and their exact sum.
 #[derive(Clone, Debug)]
 pub(super) struct Weights {
-    /// Each is `m 2^shift` in units of the least bit of all.
+    /// The weights as `m 2^shift`, in units of the lowest bit of all.
     parts: Vec<(u64, usize)>,
     /// The largest of these shifts.
     spread: usize,
@@ -41,7 +41,7 @@ pub(super) struct Weights {
 }
 
 impl Weights {
-    /// As many weights as there are `items`.
+    /// Creates the weights of `items` items.
     pub(super) fn new(weights: &[f64], items: usize) -> Result<Self, Error> {
         if weights.len() != items {
             return Err(Error::WeightCount { given: weights.len(), items });
@@ -62,12 +62,12 @@ impl Weights {
         Ok(Self { parts, spread, total })
     }
 
-    /// Whether an item has any weight.
+    /// Returns whether an item has a weight above 0.
     pub(super) fn is_positive(&self, index: usize) -> bool {
         self.parts[index].0 > 0
     }
 
-    /// The mean of finite numbers, one for each weight.
+    /// Computes the exact mean of finite numbers, one for each weight.
     pub(super) fn mean<T: Real>(&self, values: &[T]) -> Mean<'_> {
         let (mut small, mut large) = (T::max_value(), T::zero());
         for x in values.iter().map(|x| x.abs()) {
@@ -84,7 +84,8 @@ impl Weights {
         Mean { sum, is_negative, exponent: least, total: &self.total }
     }
 
-    /// `w_i x_i` as an integer and its shift, in units of `2^least`, for each `x_i` that is not 0; whether it is negative.
+    /// Returns `w_i x_i` for each `x_i` that is not 0: an integer and its shift in units of `2^least`, and whether it is
+    /// negative.
     #[inline]
     fn terms<T: Real>(&self, values: &[T], least: i32) -> impl Iterator<Item = (u128, usize, bool)> {
         let pairs = self.parts.iter().zip(values).filter(|(_, x)| !x.is_zero());
@@ -94,8 +95,8 @@ impl Weights {
         })
     }
 
-    /// The magnitude of `sum w_i x_i`, and whether it is negative, in two halves of 128 bits: fewer than [`MANY`] terms of
-    /// 106 bits, with shifts below 128.
+    /// Computes the magnitude of `sum w_i x_i`, and whether it is negative, in two halves of 128 bits: for fewer than
+    /// [`MANY`] terms of 106 bits, with shifts below 128.
     fn short_sum<T: Real>(&self, values: &[T], least: i32) -> (Natural, bool) {
         let (mut low, mut high) = (0_u128, 0_i128);
         for (n, shift, negative) in self.terms(values, least) {
@@ -113,7 +114,7 @@ impl Weights {
         (Natural::from([low, high as u128]), is_negative)
     }
 
-    /// The same for any terms.
+    /// Computes the magnitude of `sum w_i x_i`, and whether it is negative, for any terms.
     fn long_sum<T: Real>(&self, values: &[T], least: i32) -> (Natural, bool) {
         let (mut positive, mut negative) = (Natural::default(), Natural::default());
         for (n, shift, is_negative) in self.terms(values, least) {
@@ -124,10 +125,10 @@ impl Weights {
     }
 }
 
-/// Terms whose sum has room in 256 bits.
+/// The number of terms from which a sum might not fit in 256 bits.
 const MANY: usize = 1 << 20;
 
-/// A mean, `±sum 2^exponent / total`; of numbers in `[0, 1]` the exponent is at most 0.
+/// An exact mean, `±sum 2^exponent / total`; for numbers in `[0, 1]` the exponent is at most 0.
 pub(super) struct Mean<'a> {
     sum: Natural,
     is_negative: bool,
@@ -136,7 +137,7 @@ pub(super) struct Mean<'a> {
 }
 
 impl<'a> Mean<'a> {
-    /// A number in `[0, 1]`, the mean of values that agree; `one` is the integer.
+    /// Creates the mean of equal values `p` in `[0, 1]`; `one` is the integer 1.
     pub(super) fn of_one<T: Real>(p: T, one: &'a Natural) -> Self {
         let (m, exponent) = if p.is_zero() { (0, 0) } else { p.parts() };
         Self { sum: Natural::from(m), is_negative: false, exponent, total: one }
@@ -144,29 +145,30 @@ impl<'a> Mean<'a> {
 }
 
 impl Mean<'_> {
+    /// Returns the nearest float, ties to even.
     pub(super) fn nearest<T: Real>(&self) -> T {
         let magnitude: T = quotient(&self.sum, self.total, self.exponent);
         if self.is_negative { -magnitude } else { magnitude }
     }
 
-    /// The shift of `total` to what `sum` is if the mean is 1.
+    /// Returns the shift of `total` that gives the `sum` of a mean of 1.
     fn whole(&self) -> usize {
         self.exponent.unsigned_abs() as usize
     }
 
-    /// Of a mean `p` in `[0, 1]`: `2p - 1`, exactly.
+    /// Returns `2p - 1` for a mean `p` in `[0, 1]`, exactly.
     pub(super) fn beside_half(&self) -> Self {
         let (sum, is_negative) = self.sum.shifted_difference(1, self.total, self.whole());
         Self { sum, is_negative, ..*self }
     }
 
-    /// Of a mean `p` in `[0, 1]`: `1 - p`, exactly.
+    /// Returns `1 - p` for a mean `p` in `[0, 1]`, exactly.
     pub(super) fn complement(&self) -> Self {
         let (sum, _) = self.total.shifted_difference(self.whole(), &self.sum, 0);
         Self { sum, ..*self }
     }
 
-    /// Whether the mean is below, at or above 0, exactly.
+    /// Compares the mean with 0, exactly.
     pub(super) fn sign(&self) -> Ordering {
         match (self.sum.is_zero(), self.is_negative) {
             (true, _) => Ordering::Equal,
@@ -175,12 +177,12 @@ impl Mean<'_> {
         }
     }
 
-    /// Of a distance of numbers in `[0, 1]`: whether its first bit already says that it is above `2^-4`.
+    /// Returns whether the first bit of a distance of numbers in `[0, 1]` shows that it is above `2^-4`.
     pub(super) fn is_above_a_sixteenth(&self) -> bool {
         self.sum.bits() + 3 >= self.total.bits() + self.whole()
     }
 
-    /// The first 63 bits of the magnitude, and whether there are more; `None` for 0.
+    /// Returns the first 63 bits of the magnitude, and whether there are more; `None` for 0.
     pub(super) fn leading(&self) -> Option<(Leading, bool)> {
         leading(&self.sum, self.total, self.exponent)
     }

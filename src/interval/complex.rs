@@ -1,29 +1,29 @@
-//! Rectangles of the complex plane, [`Complex`]: how large a function is about a real interval, and that it is
-//! analytic there.
+//! Rectangles of the complex plane, [`Complex`]: they bound a function on a neighbourhood of a real interval, and prove
+//! that it is analytic there.
 //!
-//! An operation gives a rectangle that contains its result for any numbers of its arguments. It gives
-//! [`NOT_ANALYTIC`](Complex::NOT_ANALYTIC), and every later operation hands that on, unless the function is analytic
-//! at each of them and real where they are: with the principal branches, cut along the negative axis, `ln` and `√`
-//! away from the cut.
+//! An operation gives a rectangle that contains its result for any numbers of its arguments. If the function is not known
+//! to be analytic at each of them, and real where they are, the result is [`NOT_ANALYTIC`](Complex::NOT_ANALYTIC), and so
+//! is that of every later operation. `ln` and `√` have their principal branches, cut along the negative axis, and are
+//! analytic away from the cut.
 //!
-//! Digits do not count here: magnitudes scale a remainder whose exponent does the work.
+//! A few digits suffice here: the magnitude is only a factor of the remainder of a rule.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::Interval;
+use super::ends::Interval;
 use crate::scalar::Scalar;
 
+/// The intervals of real and of imaginary parts.
 type Real = Interval<f64>;
 
-/// All complex numbers with real part in one interval and imaginary part in another.
+/// The complex numbers with real part in one interval and imaginary part in another.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Complex {
     re: Real,
     im: Real,
-    /// A rectangle whose exponential this is: its logarithm, exactly, and the same branch all along.
+    /// The rectangle of which this is the exponential, if it is one: its logarithm, exactly.
     ///
-    /// `ln(e^z) = z` on the real axis, and so is its analytic continuation, also where the principal branch has left
-    /// it.
+    /// `ln(e^z) = z` on the real axis, so `z` is its analytic continuation, also where the principal branch has jumped.
     logarithm: Option<(Real, Real)>,
 }
 
@@ -35,36 +35,40 @@ impl Complex {
     /// The value where a function is not known to be analytic.
     pub(crate) const NOT_ANALYTIC: Self = Self { re: Real::EMPTY, im: Real::EMPTY, logarithm: None };
 
+    /// Creates the rectangle of two intervals.
     pub(crate) const fn new(re: Real, im: Real) -> Self {
         Self { re, im, logarithm: None }
     }
 
-    /// A bound on the magnitude of each number: finite only if the function is analytic on the whole rectangle.
+    /// Bounds the magnitude of each number: finite only if the function is analytic on the whole rectangle.
     pub(crate) fn bound(self) -> f64 {
         if self.re.is_bounded() && self.im.is_bounded() {
+            // |z| <= |re| + |im|, the sum rounded upwards.
             (Real::point(self.re.magnitude()) + Real::point(self.im.magnitude())).upper()
         } else {
             f64::INFINITY
         }
     }
 
+    /// Returns whether all numbers are real.
     fn is_real(self) -> bool {
         self.im == ZERO
     }
 
-    /// Whether no number is 0 or negative.
+    /// Returns whether no number is 0 or negative.
     fn avoids_cut(self) -> bool {
         self.re.lower() > 0.0 || self.im.lower() > 0.0 || self.im.upper() < 0.0
     }
 
-    /// `|z|^2`
+    /// Encloses `|z|^2`.
     fn square_magnitude(self) -> Real {
         self.re.square() + self.im.square()
     }
 
-    /// The argument, for a rectangle that avoids the cut.
+    /// Encloses the argument, for a rectangle that avoids the cut.
     fn argument(self) -> Real {
         let half = Real::constant(0.5) * PI;
+        // A quotient whose divisor has no 0: by the half plane in which the rectangle lies.
         if self.re.lower() > 0.0 {
             arctangent(self.im / self.re)
         } else if self.im.lower() > 0.0 {
@@ -74,20 +78,21 @@ impl Complex {
         }
     }
 
-    /// The same or the opposite rectangle, whichever lies to the right.
+    /// Returns the rectangle, or its opposite if that lies to the right.
     fn to_the_right(self) -> Self {
         if self.re.upper() < 0.0 { -self } else { self }
     }
 }
 
-/// `1 - e^z = -z (1 + z/2 + r)`, which keeps its digits for small `z`: `|r| <= |z|^2 / 5` for `|z| <= 1/2`.
+/// Encloses `1 - e^z = -z (1 + z/2 + r)`, with all digits for small `z`: `|r| <= |z|^2 / 5` for `|z| <= 1/2`.
 fn one_minus_exponential(z: Complex) -> Complex {
+    // 1/6 + |z|/24 + ... <= 1/5 for |z| <= 1/2: integration.md, "Rectangles".
     let rest = (z.square_magnitude() * Real::constant(0.2)).upper();
     let rest = Real::between(-rest, rest);
     -z * (Complex::constant(1.0) + Complex::constant(0.5) * z + Complex::new(rest, rest))
 }
 
-/// Some function with each end of `x` taken to a lower and an upper bound, for an odd function that rises.
+/// Encloses a rising odd function from lower and upper bounds of its values at numbers that are not negative.
 fn odd(x: Real, bounds: impl Fn(f64) -> (f64, f64)) -> Real {
     let end = |x: f64| {
         let (lower, upper) = bounds(x.abs());
@@ -96,8 +101,8 @@ fn odd(x: Real, bounds: impl Fn(f64) -> (f64, f64)) -> Real {
     Real::between(end(x.lower()).0, end(x.upper()).1)
 }
 
-/// `v >= 0` widened by `2^-36` of it, more than the truncation and the roundings of the functions below; so that
-/// nothing underflows, tiny numbers are lumped together. All functions here are 0 at 0, exactly.
+/// Widens `v >= 0` by `2^-36` of its value, more than the truncation and the roundings of the functions below. All tiny
+/// numbers get one pair of bounds, so that nothing underflows. All functions here are 0 at 0, exactly.
 fn about(v: f64) -> (f64, f64) {
     const MARGIN: f64 = 1.0 / (1_u64 << 36) as f64;
     const TINY: f64 = 1e-290;
@@ -110,28 +115,31 @@ fn about(v: f64) -> (f64, f64) {
     }
 }
 
-/// `sin x` for `|x| <= 1.57 < π/2`: its series up to `x^15`; the next term is below `2^-37` of the sum.
+/// Encloses `sin x` for `|x| <= 1.57 < π/2`: its series up to `x^15`; the next term is below `2^-37` of the sum.
 fn sine(x: Real) -> Real {
     odd(x, |x| {
         let square = x * x;
+        // Terms alternate and fall: what is left out is below x^17 / 17!, 2^-37 of the sum, within the margin.
         about(x * (1..=7).rev().fold(1.0, |sum, k| 1.0 - sum * square / f64::from(2 * k * (2 * k + 1))))
     })
 }
 
-/// `cos x` for `|x| <= 1.57`: `1 - cos x` by its series up to `x^16`; the next term is below `2^-40` of the sum.
+/// Encloses `cos x` for `|x| <= 1.57`: `1 - cos x` by its series up to `x^16`; the next term is below `2^-40` of the sum.
 fn cosine(x: Real) -> Real {
     let versine = |x: f64| {
         let square = x * x;
+        // Likewise: x^18 / 18! is below 2^-40 of the sum.
         about(
             0.5 * square
                 * (2..=8).rev().fold(1.0, |sum, k| 1.0 - sum * square / f64::from(2 * k * (2 * k - 1))),
         )
     };
+    // 1 - cos is even and rises with |x|.
     let (far, near) = (x.magnitude(), x.lower().max(-x.upper()).max(0.0));
     ONE - Real::between(versine(near).0, versine(far).1)
 }
 
-/// `arctan x`, between the fourth and the fifth convergent of Lambert's continued fraction, which alternate about it.
+/// Encloses `arctan x` between the fourth and the fifth convergent of Lambert's continued fraction, which alternate about it.
 fn arctangent(x: Real) -> Real {
     odd(x, |x| {
         if x > 1.0 {
@@ -144,9 +152,10 @@ fn arctangent(x: Real) -> Real {
     })
 }
 
-/// The fourth and the fifth convergent at `x` in `[0, 1]`, each moved outward by the margin.
+/// Returns the fourth and the fifth convergent at `x` in `[0, 1]`, each moved outward by the margin.
 fn convergents(x: f64) -> (f64, f64) {
     let square = x * x;
+    // Lambert's fraction has positive terms, so its convergents lie alternately below and above arctan.
     let fourth = x * (105.0 + 55.0 * square) / (105.0 + square * (90.0 + 9.0 * square));
     let fifth = x * (945.0 + square * (735.0 + 64.0 * square)) / (945.0 + square * (1050.0 + 225.0 * square));
     (about(fourth).0, about(fifth).1)
@@ -169,6 +178,7 @@ impl Add for Complex {
 impl Sub for Complex {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
+        // 1 - e^z near 0, where the difference of the two loses its digits.
         if self.is_real()
             && self.re == ONE
             && let Some((re, im)) = other.logarithm
@@ -199,6 +209,7 @@ impl Div for Complex {
         if other.is_real() && !other.re.contains(0.0) {
             return Self::new(self.re / other.re, self.im / other.re);
         }
+        // a / c = a c* / |c|^2, analytic unless the divisor may be 0.
         let square = other.square_magnitude();
         if square.is_empty() || square.lower() <= 0.0 {
             return Self::NOT_ANALYTIC;
@@ -217,9 +228,10 @@ impl Scalar for Complex {
         Self::new(Real::ln_2(), ZERO)
     }
 
-    /// `e^re (cos im + i sin im)`
+    /// Encloses `e^re (cos im + i sin im)`.
     fn exp(self) -> Self {
         let magnitude = self.re.exp();
+        // Beyond 1.57 the whole range serves: sine and cosine are in [-1, 1].
         let (cosine, sine) = if self.is_real() {
             (ONE, ZERO)
         } else if self.im.magnitude() <= 1.57 {
@@ -232,6 +244,7 @@ impl Scalar for Complex {
     }
 
     fn ln(self) -> Self {
+        // The logarithm of an exponential is its argument: the same branch, without loss.
         if let Some((re, im)) = self.logarithm {
             return Self::new(re, im);
         }
@@ -241,26 +254,30 @@ impl Scalar for Complex {
         if self.is_real() {
             return Self::new(self.re.ln(), ZERO);
         }
+        // ln |c|^2 / 2 + i arg c.
         Self::new(Real::constant(0.5) * self.square_magnitude().ln(), self.argument())
     }
 
     fn sqrt(self) -> Self {
+        // By the principal logarithm: not analytic where that is not.
         (Self::constant(0.5) * self.ln()).exp()
     }
 
-    /// Eq. 1 with `ln p` and `ln(1 - p)`, both away from the cut.
+    /// Encloses Eq. 1 with `ln p` and `ln(1 - p)`, both away from the cut.
     fn entropy(self) -> Self {
+        // p ln p + (1 - p) ln(1 - p); both logarithms hand on that they are not analytic.
         let rest = Self::constant(1.0) - self;
         -(self * self.ln() + rest * rest.ln()) / Self::ln_2()
     }
 
-    /// `(ln(1 + x) + l x / (1 + x)) / ln 2` with `x = e^-l`: analytic where `|im l| < π`, and where `re l > 0`, for
-    /// there `|x| < 1`. It is even: so also where `re l < 0`.
+    /// Encloses `(ln(1 + x) + l x / (1 + x)) / ln 2` with `x = e^-l`: analytic where `|im l| < π`, and where `re l > 0`, for
+    /// there `|x| < 1`. It is even, so it is analytic where `re l < 0`, too.
     fn entropy_from_log_odds(self) -> Self {
         let l = self.to_the_right();
         if !(l.re.lower() > 0.0 || l.im.magnitude() < PI.lower()) {
             return Self::NOT_ANALYTIC;
         }
+        // re l > 0, so |x| < 1, or |im l| < π: 1 + x is never on the cut.
         let x = (-l).exp();
         let sum = Self::constant(1.0) + x;
         (sum.ln() + l * x / sum) / Self::ln_2()

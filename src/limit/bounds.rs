@@ -1,5 +1,5 @@
-//! How far the mean information of a grid of the circular room can be from its limit: bounds that hold before the grid is
-//! counted, and sharper ones that know how many of its cells are observed.
+//! Bounds on the distance between the mean information of a grid of the circular room and its limit: bounds before the grid
+//! is counted, and sharper ones for a known number of observed cells.
 //!
 //! With cells of side `h` and `x = L / h`, `L = z + σ √(ln 4)`, all of them are
 //!
@@ -11,25 +11,26 @@
 //! that of the number of observed cells, and `N` is that number or a lower bound of it. The proofs are the chapter
 //! [`convergence`](crate::book::convergence), whose symbols are used here. All arithmetic is rounded outwards, in `f64`.
 
+use super::closed_form::closed_form;
 use super::upwards::Up;
-use super::{Weight, closed_form};
+use super::weight::Weight;
 use crate::cell::information;
 use crate::error::{Error, positive};
 use crate::real::Real;
 use crate::sensor::{GaussianSensor, InverseSensorModel};
 use num_traits::float::FloatCore;
 
-/// The floats below and above `√(ln 4)`.
-const B: [f64; 2] = [1.177_410_022_515_474_7, 1.177_410_022_515_474_9];
+/// The floats below and above `b = √(ln 4)`, the far edge in standard deviations.
+const EDGE: [f64; 2] = [1.177_410_022_515_474_7, 1.177_410_022_515_474_9];
 /// The floats below and above `π`.
 const PI: [f64; 2] = [core::f64::consts::PI, core::f64::consts::PI.next_up()];
-/// At least `max |η'|`: the steepest information over `t`.
+/// A bound on `max |η'|`, the steepest slope of the information over `t`.
 const STEEPEST: Up = Up(1.32404);
-/// At least `W`, the total variation of `η'`.
+/// A bound on `W`, the total variation of `η'`.
 const BEND: Up = Up(6.7619);
 
-/// How far the mean information `Ī_h` of a polar map of the circular room is from its limit `Ī`, the radial one (Eq. 7), at
-/// most; in bits per cell, and not above 1. The map has rings of width `resolution`, `h` (metres), sampled at their centres:
+/// Bounds the distance of the mean information `Ī_h` of a polar map of the circular room from its limit `Ī`, the radial one
+/// (Eq. 7); in bits per cell, and not above 1. The map has rings of width `resolution`, `h` (metres), sampled at their centres:
 /// [`PolarRoom`](crate::room::PolarRoom).
 ///
 /// ```text
@@ -38,8 +39,8 @@ const BEND: Up = Up(6.7619);
 /// ```
 ///
 /// with `V = 2 + f(0)` if `z > σ √(ln 4)`, else `2 - f(0)`, where `f(0)` is the information at the sensor; `W = 6.7619`; `N_½`
-/// the number of rings whose centre falls on `ρ = z - σ √(ln 4)`, where `p = 1/2`: decided, mostly 0. `w` and terms not shown
-/// are of the order of the rounding of the grid's cells in `T`; they are included.
+/// the number of rings whose centre lies on `ρ = z - σ √(ln 4)`, where `p = 1/2`: computed, mostly 0. `w` and the terms not
+/// shown are of the order of the rounding of the grid's cells in `T`; they are included.
 ///
 /// Proved ([`convergence`](crate::book::convergence)), for every sensor and resolution; rounded up.
 ///
@@ -62,7 +63,7 @@ pub fn polar<T: Real>(sensor: &GaussianSensor<T>, resolution: T) -> Result<T, Er
     Ok(beam.before_counting(room.limit, room.rings_at_one_half()))
 }
 
-/// The bound on `|Ī_h - Ī|` for such a polar map of which so many rings are observed, `N`.
+/// Bounds `|Ī_h - Ī|` for a polar map of which the number `N` of observed rings is known.
 ///
 /// ```text
 /// |Ī_h - Ī| <= (E_I + Ī |N - x|) / N
@@ -73,7 +74,7 @@ pub fn polar<T: Real>(sensor: &GaussianSensor<T>, resolution: T) -> Result<T, Er
 /// Proved ([`convergence`](crate::book::convergence)), and rounded up.
 ///
 /// # Errors
-/// That of [`polar`].
+/// Those of [`polar`].
 ///
 /// ```
 /// use mean_information::room::PolarRoom;
@@ -94,8 +95,8 @@ pub fn polar_with_count<T: Real>(
     Ok(room.beam().with_count(room.limit, observed))
 }
 
-/// How far the mean information `Ī_h` of a Cartesian grid of the circular room is from its limit `Ī`, the area limit, at most;
-/// in bits per cell, and not above 1. Its cells are of side `resolution`, `h` (metres), sampled at their centres, wherever
+/// Bounds the distance of the mean information `Ī_h` of a Cartesian grid of the circular room from its limit `Ī`, the area
+/// limit; in bits per cell, and not above 1. Its cells are of side `resolution`, `h` (metres), sampled at their centres, wherever
 /// they lie: [`CartesianRoom`](crate::room::CartesianRoom).
 ///
 /// ```text
@@ -106,10 +107,10 @@ pub fn polar_with_count<T: Real>(
 /// ```
 ///
 /// with `x`, `V` and `w` as in [`polar`]; `D` bounds the error of counting the cells in a disc, and `N_½` how many cell
-/// centres can lie on the circle of radius `r` cells where `p = 1/2`: 0 if `r < 0`, and `2 E_N` and some where cells are so
-/// fine that rounding widens the circle.
+/// centres can lie on the circle of radius `r` cells where `p = 1/2`: 0 if `r < 0`, and slightly more than `2 E_N` if cells
+/// are so fine that rounding widens the circle.
 ///
-/// So the error falls at least as `h^(4/3)`.
+/// So the error falls at least as fast as `h^(4/3)`.
 ///
 /// Proved ([`convergence`](crate::book::convergence)), for every sensor, resolution and offset; rounded up.
 ///
@@ -132,13 +133,14 @@ pub fn cartesian<T: Real>(sensor: &GaussianSensor<T>, resolution: T) -> Result<T
     Ok(disc.before_counting(room.limit, room.cells_at_one_half(disc.miscount)))
 }
 
-/// The bound on `|Ī_h - Ī|` for such a Cartesian grid of which so many cells are observed, `N`.
+/// Bounds `|Ī_h - Ī|` for a Cartesian grid of which the number `N` of observed cells is known.
 ///
 /// ```text
 /// |Ī_h - Ī| <= (E_I + Ī |N - π x^2|) / N
 /// ```
 ///
-/// with `E_I` and `x` as in [`cartesian`]. Nearly all of a grid's error is the second term: the sum of information is good to `h^(5/2)`.
+/// with `E_I` and `x` as in [`cartesian`]. Most of a grid's error is the second term: the error of the sum of information
+/// falls like `h^(5/2)`.
 ///
 /// Proved ([`convergence`](crate::book::convergence)), and rounded up.
 ///
@@ -163,40 +165,41 @@ pub fn cartesian_with_count<T: Real>(
     Ok(room.disc().with_count(room.limit, observed))
 }
 
-/// What the bounds of a room are made of. Lengths are in cells.
+/// The quantities of a room from which the bounds are made. Lengths are in cells.
 struct Room {
-    /// `z` over the resolution, below and above.
+    /// The range `z` over the resolution, below and above.
     range: [f64; 2],
-    /// `σ` over the resolution, below and above.
+    /// The deviation `σ` over the resolution, below and above.
     sigma: [f64; 2],
-    /// `L` over the resolution, below and above.
+    /// The reach `L` over the resolution, below and above.
     radius: [f64; 2],
-    /// `V`.
+    /// The total variation `V` of the information.
     variation: Up,
-    /// `Ī`, the limit.
+    /// The limit `Ī`.
     limit: Up,
-    /// `u = 2^-P`: numbers are rounded by at most so much of their value, occupancies by half of it.
+    /// The unit roundoff `u = 2^-P`: numbers are rounded by at most `u` times their value, occupancies by half of that.
     unit: Up,
-    /// `ε`: at most so much is a cell's information changed by the rounding of its occupancy, its own, and that of the mean.
+    /// The bound `ε` on the change of a cell's information by the rounding of its occupancy, of itself, and of the mean.
     rounding: Up,
 }
 
 /// The observed part of a grid: cells along a beam, or in a disc.
 struct Observed {
-    /// How many cells there would be if they were counted by length or area: below and above.
+    /// The observed length or area `Ω` in cells, below and above.
     size: [f64; 2],
-    /// `E_N`: by how much the count can differ from that.
+    /// The bound `E_N` on the difference of the count from `Ω`.
     miscount: Up,
-    /// `E_I`: by how much the sum of information can.
+    /// The bound `E_I` on the error of the sum of information.
     information: Up,
 }
 
-/// `a / b` for positive numbers, below and above.
-fn quotient(a: f64, b: f64) -> [f64; 2] {
+/// Encloses `a / b` for positive numbers: below and above.
+fn enclosed_ratio(a: f64, b: f64) -> [f64; 2] {
     [(a / b).next_down().max(0.0), (a / b).next_up()]
 }
 
 impl Room {
+    /// Computes the quantities of the room of a sensor.
     fn new<T: Real>(sensor: &GaussianSensor<T>, resolution: T, weight: Weight) -> Result<Self, Error> {
         let resolution = positive("resolution", resolution)?.widen();
         let bits = T::PRECISION as i32;
@@ -205,12 +208,13 @@ impl Room {
         let spacing = (smallest / (sensor.range().widen() + sensor.sigma().widen())).next_up();
         let unit = f64::from_parts(1, -bits).max(spacing);
         let unit = Up(if unit > 1.0 / 1024.0 { f64::INFINITY } else { unit });
+        // ε = (P + 5) u / 2: convergence.md, "Rounding".
         let rounding = Up(f64::from(bits + 5) / 2.0) * unit;
-        let range = quotient(sensor.range().widen(), resolution);
-        let sigma = quotient(sensor.sigma().widen(), resolution);
+        let range = enclosed_ratio(sensor.range().widen(), resolution);
+        let sigma = enclosed_ratio(sensor.sigma().widen(), resolution);
         let radius = [
-            (range[0] + (sigma[0] * B[0]).next_down()).next_down(),
-            (Up(range[1]) + Up(sigma[1]) * Up(B[1])).0,
+            (range[0] + (sigma[0] * EDGE[0]).next_down()).next_down(),
+            (Up(range[1]) + Up(sigma[1]) * Up(EDGE[1])).0,
         ];
         // The float tells the sign of z - σ √(ln 4): it is 1/2 only where the information is 0, but for the rounding.
         let at_the_sensor = sensor.occupancy(T::zero());
@@ -222,38 +226,40 @@ impl Room {
         Ok(Self { range, sigma, radius, variation, limit, unit, rounding })
     }
 
-    /// `L`, above.
+    /// Returns the reach `L`, above.
     fn radius(&self) -> Up {
         Up(self.radius[1])
     }
 
-    /// By how much rounding can move a circle of the model: the distances of the cells by `u L`, the occupancies of 1/2 by
-    /// `0.86 u σ`.
+    /// Bounds the distance `w` by which rounding can move a circle of the model: `u L` by the distances of the cells,
+    /// `0.86 u σ` by the occupancies of 1/2.
     fn shift(&self) -> Up {
         Up(2.0) * self.unit * self.radius()
     }
 
-    /// By how much one cell's information can change because its distance is rounded, where the bound is of second order.
+    /// Bounds the change of one cell's information by the rounding of its distance, for the bound of second order.
     fn displacement(&self) -> Up {
         STEEPEST * self.shift() / self.sigma[0]
     }
 
-    /// A beam of the polar map, of cells of width 1.
+    /// Bounds count and sum along a beam of the polar map, of cells of width 1.
     fn beam(&self) -> Observed {
         let miscount = Up(0.5) + self.shift();
         let cells = self.radius() + miscount;
+        // First order: V E_N; second order: W h / (8 σ), by the kernel of the midpoint rule: convergence.md, "The sum of information".
         let first = self.variation * miscount;
         let second = BEND * Up(0.125) / self.sigma[0] + self.displacement() * cells;
         Observed { size: self.radius, miscount, information: first.or(second) + self.rounding * cells }
     }
 
-    /// The disc of the Cartesian grid, of cells of area 1.
+    /// Bounds count and sum in the disc of the Cartesian grid, of cells of area 1.
     fn disc(&self) -> Observed {
         let radius = self.radius();
         let size = [
             ((self.radius[0] * self.radius[0]).next_down() * PI[0]).next_down(),
             (radius * radius * Up(PI[1])).0,
         ];
+        // π (2 x w + w^2) < 7 x w: convergence.md, "Rounding".
         let ring = Up(7.0) * radius * self.shift();
         let miscount = points_in_a_disc(radius + self.shift()) + ring;
         let cells = Up(size[1]) + miscount;
@@ -265,15 +271,16 @@ impl Room {
         Observed { size, miscount, information: first.or(second) + self.rounding * cells }
     }
 
-    /// The circle `ρ = z - σ √(ln 4)` where `p = 1/2`, in cells, as far as rounding can move it; the end may be negative.
+    /// Encloses the radius `z - σ √(ln 4)` of the circle where `p = 1/2`, in cells, as far as rounding can move it; an end may
+    /// be negative.
     fn ring(&self) -> [f64; 2] {
         let wide = self.shift().0;
-        let near = self.range[0] - (self.sigma[1] * B[1]).next_up();
-        let far = self.range[1] - (self.sigma[0] * B[0]).next_down();
+        let near = self.range[0] - (self.sigma[1] * EDGE[1]).next_up();
+        let far = self.range[1] - (self.sigma[0] * EDGE[0]).next_down();
         [(near.next_down() - wide).next_down(), (far.next_up() + wide).next_up()]
     }
 
-    /// How many centres `k + 1/2` of rings lie there.
+    /// Counts the centres `k + 1/2` of rings that can lie on the circle where `p = 1/2`.
     fn rings_at_one_half(&self) -> Up {
         let [near, far] = self.ring();
         let first = FloatCore::ceil((near - 0.5).next_down()).max(0.0);
@@ -281,7 +288,7 @@ impl Room {
         if last < first { Up(0.0) } else { Up(last - first) + Up(1.0) }
     }
 
-    /// How many centres of cells can lie there: lattice points on a circle.
+    /// Bounds the number of centres of cells on the circle where `p = 1/2`: lattice points on a circle.
     fn cells_at_one_half(&self, miscount: Up) -> Up {
         let far = self.ring()[1];
         if far < 0.0 {
@@ -296,7 +303,7 @@ impl Room {
     }
 }
 
-/// The error of counting points of the unit lattice, moved anyhow, in a disc of the given radius.
+/// Bounds the error of counting the points of a shifted unit lattice in a disc of the given radius.
 fn points_in_a_disc(radius: Up) -> Up {
     let by_columns = Up(2.0) * radius + Up(1.72) * radius.sqrt() + Up(1.0);
     if radius.0 < 5.0 {
@@ -306,22 +313,22 @@ fn points_in_a_disc(radius: Up) -> Up {
 }
 
 impl Observed {
-    /// The bound for any count that is possible, of which `unobserved` can be missing.
+    /// Computes the bound for every possible count, of which `unobserved` cells can be missing.
     fn before_counting<T: Real>(&self, limit: Up, unobserved: Up) -> T {
         let missing = self.miscount + unobserved;
         self.bound(limit, missing, (self.size[0] - missing.0).next_down())
     }
 
-    /// The bound for this count.
+    /// Computes the bound for this count.
     fn with_count<T: Real>(&self, limit: Up, observed: u64) -> T {
         let count = observed as f64;
         let [below, above] = self.size;
-        // The conversion rounds.
+        // The conversion to a float rounds.
         let miscount = (count.next_up() - below).max(above - count.next_down()).next_up();
         self.bound(limit, Up(miscount), count.next_down())
     }
 
-    /// `(E_I + Ī miscount) / count` for a lower bound of the count; 1 where that says nothing.
+    /// Computes `(E_I + Ī miscount) / count` for a lower bound of the count; 1 where that is no bound.
     fn bound<T: Real>(&self, limit: Up, miscount: Up, count: f64) -> T {
         if count <= 0.0 {
             return T::one();

@@ -8,11 +8,11 @@ use crate::real::Real;
 use crate::scalar::Scalar;
 use crate::sensor::GaussianSensor;
 
-/// What `n` independent readings of the same range say together: `n ln(p / (1 - p))` as log-odds, `p` of Eq. 5.
+/// The model of `n` independent readings of the same range: the log-odds are `n ln(p / (1 - p))`, with `p` of Eq. 5.
 ///
-/// The report leaves the limit of their mean information open. Every reading adds information where the first was certain of
-/// anything; only at `p = 1/2`, that is `ρ = z ± σ √(ln 4)`, is nothing ever learnt. So the entropy becomes two bumps about these
-/// distances, of widths like `1/n`, and the mean information tends to 1 like `1 - c/n`.
+/// The report leaves the limit of their mean information open. Every reading adds information, except where `p = 1/2`, that
+/// is at `ρ = z ± σ √(ln 4)`. So the entropy is concentrated about these two distances, in widths proportional to `1/n`, and
+/// the mean information tends to 1 like `1 - c/n`.
 ///
 /// ```
 /// use mean_information::limit::RepeatedScans;
@@ -28,7 +28,7 @@ pub struct RepeatedScans<T> {
 }
 
 impl<T: Real> RepeatedScans<T> {
-    /// `scans` readings of one sensor at one range.
+    /// Creates the model of `scans` readings of one sensor at one range.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if there are none.
@@ -39,19 +39,19 @@ impl<T: Real> RepeatedScans<T> {
         Ok(Self { sensor, scans })
     }
 
-    /// One of the readings.
+    /// Returns the model of a single reading.
     pub fn sensor(&self) -> GaussianSensor<T> {
         self.sensor
     }
 
-    /// How many readings.
+    /// Returns the number of readings.
     pub fn scans(&self) -> u32 {
         self.scans
     }
 }
 
-/// Each stretch between `z`, where the log-odds are infinite, and a bump, where they are 0, is cut in half, so that both of its
-/// ends are starts.
+/// The pieces for the integrators: each stretch from `z`, where the log-odds are infinite, to a bump, where they are 0, is cut
+/// in half, and each half starts at its difficult end.
 impl<T: Real> RadialModel for RepeatedScans<T> {
     type Float = T;
 

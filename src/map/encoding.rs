@@ -1,76 +1,18 @@
-//! How cells are stored: as probabilities, as log-odds, in ROS's percent and in MRPT's bytes.
+//! The encodings of cells: probabilities, log-odds, ROS's percent and MRPT's bytes.
 //!
 //! An encoding gives every stored value its exact meaning. Unknown is exact in all of them: `p = 1/2`, `l = 0`.
 
 use super::histogram::Histogram;
 use super::repeated;
+pub use super::stored::Encoding;
 use crate::cell::{self, Cell};
 use crate::real::Real;
-use crate::tally::{Information, Tally};
-use core::fmt::Debug;
+use crate::tally::{InformationSum, Tally};
 use core::marker::PhantomData;
 #[cfg(feature = "std")]
 use std::sync::LazyLock;
 
-/// What a stored cell means. Implement it to measure maps in a format of your own; then [`Encoding::occupancy`] must
-/// lie in `[0, 1]`, and the methods that can be `None` must be so for the same values. For cells of 8 bits a
-/// [`Histogram`] gives a fast [`Encoding::tally`]. The measures are those of [`map`](crate::book::map) (Eqs. 1 to 4).
-///
-/// ```
-/// use mean_information::map::{Encoding, encoding::Percent};
-/// assert_eq!(Percent::value(83), 83.0);
-/// assert_eq!(Percent::occupancy(83), Some(0.83));
-/// assert_eq!(Percent::log_odds(83), Some(1.5856272637403817)); // nats
-/// assert_eq!(Percent::cell(83).map(|cell| cell.entropy()), Some(0.6577047787442195)); // bits
-/// assert_eq!(Percent::occupancy(101), None);
-/// let cells = [83, -1, 12];
-/// assert_eq!(Percent::tally(&cells).entropy(), 2.187065644031584); // bits
-/// assert_eq!(Percent::information(&cells).total(), 0.8129343559684161); // bits
-/// ```
-pub trait Encoding: Copy + Debug {
-    /// What is stored per cell.
-    type Stored: Copy + Debug + PartialEq + Send + Sync;
-    /// The type of the cell's occupancy, entropy and information.
-    type Float: Real;
-    /// The allowed values, in words, for error messages.
-    const ALLOWED: &'static str;
-
-    /// The stored value of an unknown cell.
-    fn unknown() -> Self::Stored;
-
-    /// The stored value as a number, exactly, for error messages.
-    fn value(stored: Self::Stored) -> f64;
-
-    /// The cell that is stored, its entropy and information (bits) correctly rounded from its occupancy or from its
-    /// log-odds; `None` if the value is not allowed.
-    fn cell(stored: Self::Stored) -> Option<Cell<Self::Float>>;
-
-    /// The occupancy of the stored cell, correctly rounded, 1/2 if unknown; `None` if the value is not allowed.
-    fn occupancy(stored: Self::Stored) -> Option<Self::Float>;
-
-    /// The log-odds of the stored cell in nats, correctly rounded, 0 if unknown; `None` if the value is not allowed. Unless
-    /// an encoding says otherwise, they are those of its [`occupancy`](Self::occupancy).
-    fn log_odds(stored: Self::Stored) -> Option<Self::Float> {
-        Self::occupancy(stored).map(cell::log_odds_from_occupancy)
-    }
-
-    /// Whether the value is allowed: whether [`Encoding::cell`] and [`Encoding::occupancy`] are `Some`.
-    fn is_valid(stored: Self::Stored) -> bool {
-        Self::occupancy(stored).is_some()
-    }
-
-    /// The exact sums over the stored cells, passing over values that are not allowed.
-    fn tally(cells: &[Self::Stored]) -> Tally<Self::Float> {
-        cells.iter().filter_map(|&stored| Self::cell(stored)).collect()
-    }
-
-    /// The information of the stored cells, to the same bits as in their tally, but entropies need not be computed.
-    fn information(cells: &[Self::Stored]) -> Information<Self::Float> {
-        (&Self::tally(cells)).into()
-    }
-}
-
-/// Occupancy probabilities `p` in `[0, 1]`; unknown is 1/2.
+/// The encoding of cells as occupancy probabilities `p` in `[0, 1]`; unknown is 1/2.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Probability<T>(PhantomData<T>);
 
@@ -99,12 +41,12 @@ impl<T: Real> Encoding for Probability<T> {
         Tally::from_occupancies(cells)
     }
 
-    fn information(cells: &[T]) -> Information<T> {
-        Information::from_occupancies(cells)
+    fn information_sum(cells: &[T]) -> InformationSum<T> {
+        InformationSum::from_occupancies(cells)
     }
 }
 
-/// Log-odds `l = ln(p / (1-p))` in nats; unknown is 0.
+/// The encoding of cells as log-odds `l = ln(p / (1-p))` in nats; unknown is 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LogOdds<T>(PhantomData<T>);
 
@@ -142,7 +84,7 @@ impl<T: Real> Encoding for LogOdds<T> {
     }
 }
 
-/// A function of a byte, from a table that is made when first needed.
+/// Evaluates a function of a byte from a table that is made on first use.
 macro_rules! tabulated {
     ($byte:ident, $result:ty, $function:expr) => {{
         #[cfg(feature = "std")]
@@ -156,7 +98,8 @@ macro_rules! tabulated {
     }};
 }
 
-/// ROS's `nav_msgs/OccupancyGrid`: a percentage 0..=100, or -1 for unknown; 50 is `p = 1/2`, hence unknown too.
+/// The encoding of ROS's `nav_msgs/OccupancyGrid`: a percentage 0..=100, or -1 for unknown; 50 is `p = 1/2`, hence
+/// unknown too.
 ///
 /// `p` is the `f64` nearest to `percent / 100`.
 ///
@@ -204,7 +147,8 @@ impl Encoding for Percent {
     }
 }
 
-/// MRPT's `COccupancyGridMap2D` with 8-bit cells: 16 times the log-odds of being **free**, in nats; 0 is unknown.
+/// The encoding of MRPT's `COccupancyGridMap2D` with 8-bit cells: 16 times the log-odds of being **free**, in nats; 0 is
+/// unknown.
 ///
 /// -128 reads as -127, as in MRPT, so that the scale is symmetric.
 ///
@@ -215,7 +159,7 @@ impl Encoding for Percent {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MrptLogOdds;
 
-/// The log-odds of being occupied that MRPT's byte means, in nats; exact.
+/// Decodes MRPT's byte to the log-odds of being occupied, in nats; exact.
 fn log_odds(stored: i8) -> f64 {
     f64::from(stored.max(-127)) / -16.0
 }

@@ -1,4 +1,4 @@
-//! Where a grid lies in the world.
+//! The place of a grid in the world.
 
 use crate::error::{Error, finite, positive};
 
@@ -19,7 +19,8 @@ pub struct Geometry {
 }
 
 impl Geometry {
-    /// Square cells of side `resolution` (metres) from `origin` (x, y in metres), the corner of row 0 and column 0.
+    /// Creates the geometry of square cells of side `resolution` (metres) from `origin` (x, y in metres), the corner of
+    /// row 0 and column 0.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if the resolution is not positive and finite, or the origin not finite.
@@ -31,7 +32,7 @@ impl Geometry {
         Ok(Self { resolution, origin, yaw: 0.0 })
     }
 
-    /// The same grid turned about its origin by `yaw` (radians, counter-clockwise).
+    /// Turns the grid about its origin by `yaw` (radians, counter-clockwise).
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if the angle is not finite.
@@ -40,27 +41,27 @@ impl Geometry {
         Ok(Self { yaw, ..self })
     }
 
-    /// The side of a cell, in metres.
+    /// Returns the side of a cell, in metres.
     pub fn resolution(&self) -> f64 {
         self.resolution
     }
 
-    /// The corner of row 0 and column 0: x and y, in metres.
+    /// Returns the corner of row 0 and column 0: x and y, in metres.
     pub fn origin(&self) -> [f64; 2] {
         self.origin
     }
 
-    /// The turn of the grid about its origin, in radians.
+    /// Returns the angle by which the grid is turned about its origin, in radians.
     pub fn yaw(&self) -> f64 {
         self.yaw
     }
 
-    /// The area of a cell, in square metres.
+    /// Returns the area of a cell, in square metres.
     pub fn cell_area(&self) -> f64 {
         self.resolution * self.resolution
     }
 
-    /// The same corner with cells `k` times as wide.
+    /// Creates the geometry with the same origin and cells `k` times as wide.
     pub(crate) fn coarser(&self, k: usize) -> Result<Self, Error> {
         Self::new(self.resolution * k as f64, self.origin)?.with_yaw(self.yaw)
     }

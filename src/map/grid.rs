@@ -1,15 +1,17 @@
 //! The Cartesian occupancy grid.
 
-use super::{Encoding, Geometry};
+use super::cell_rows::CellRows;
+use super::geometry::Geometry;
+use super::stored::Encoding;
 use crate::error::Error;
 #[cfg(feature = "rayon")]
-use crate::tally::Information;
+use crate::tally::InformationSum;
 use crate::tally::Tally;
 use alloc::vec::Vec;
 #[cfg(feature = "rayon")]
 use rayon::prelude::*;
 
-/// An occupancy map: rows of square cells in one [`Encoding`], with its place in the world.
+/// A Cartesian occupancy map: rows of square cells in one [`Encoding`], with its place in the world.
 ///
 /// Row 0 is the lowest (smallest y), as in ROS's `OccupancyGrid` and in MRPT; cells are stored row by row.
 /// Memory: one stored value per cell. Its measures are Eqs. 2 to 4 of the report ([`map`](crate::book::map)).
@@ -26,14 +28,12 @@ use rayon::prelude::*;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid<E: Encoding> {
-    width: usize,
-    height: usize,
+    rows: CellRows<E>,
     geometry: Geometry,
-    cells: Vec<E::Stored>,
 }
 
 impl<E: Encoding> Grid<E> {
-    /// A grid of `width` columns and `height` rows from its cells, row by row from the lowest.
+    /// Creates a grid of `width` columns and `height` rows from its cells, row by row from the lowest.
     ///
     /// # Errors
     /// [`Error::CellCount`] if there are not width times height cells; [`Error::Cell`] naming the first cell whose
@@ -44,53 +44,46 @@ impl<E: Encoding> Grid<E> {
         geometry: Geometry,
         cells: Vec<E::Stored>,
     ) -> Result<Self, Error> {
-        if width.checked_mul(height) != Some(cells.len()) {
-            return Err(Error::CellCount { given: cells.len(), width, height });
-        }
-        if let Some(bad) = cells.iter().position(|&stored| !E::is_valid(stored)) {
-            let (row, column, value) = (bad / width, bad % width, E::value(cells[bad]));
-            return Err(Error::Cell { row, column, value, allowed: E::ALLOWED });
-        }
-        Ok(Self { width, height, geometry, cells })
+        Ok(Self { rows: CellRows::new(width, height, cells)?, geometry })
     }
 
-    /// Columns.
+    /// Returns the number of columns.
     pub fn width(&self) -> usize {
-        self.width
+        self.rows.width()
     }
 
-    /// Rows.
+    /// Returns the number of rows.
     pub fn height(&self) -> usize {
-        self.height
+        self.rows.height()
     }
 
-    /// Resolution and origin.
+    /// Returns the resolution and the place of the grid.
     pub fn geometry(&self) -> &Geometry {
         &self.geometry
     }
 
-    /// The stored cells, row by row from the lowest.
+    /// Returns the stored cells, row by row from the lowest.
     pub fn cells(&self) -> &[E::Stored] {
-        &self.cells
+        self.rows.cells()
     }
 
-    /// The stored cells of one row; `None` beyond the last.
+    /// Returns the stored cells of one row; `None` beyond the last.
     pub fn row(&self, row: usize) -> Option<&[E::Stored]> {
-        (row < self.height).then(|| &self.cells[row * self.width..][..self.width])
+        self.rows.row(row)
     }
 
-    /// The occupancy of one cell, the bits of [`Encoding::occupancy`]; `None` outside the grid.
+    /// Returns the occupancy of one cell, with the bits of [`Encoding::occupancy`]; `None` outside the grid.
     pub fn occupancy(&self, row: usize, column: usize) -> Option<E::Float> {
-        self.row(row)?.get(column).and_then(|&stored| E::occupancy(stored))
+        self.rows.occupancy(row, column)
     }
 
-    /// Entropy, information and counts over all cells (Eqs. 2 to 4); the sums are exact.
+    /// Computes entropy, information and counts over all cells (Eqs. 2 to 4); the sums are exact.
     pub fn tally(&self) -> Tally<E::Float> {
-        E::tally(&self.cells)
+        self.rows.tally()
     }
 
-    /// The mean information (Eq. 4), in bits per observed cell: the bits of [`Tally::mean_information`], sooner,
-    /// since no entropies are computed; 0 if nothing is observed.
+    /// Computes the mean information (Eq. 4), in bits per observed cell; 0 if no cell is observed. It has the bits of
+    /// [`Tally::mean_information`], but is faster, because no entropies are computed.
     ///
     /// ```
     /// use mean_information::map::{Geometry, Grid, encoding::Probability};
@@ -100,17 +93,17 @@ impl<E: Encoding> Grid<E> {
     /// # Ok::<(), mean_information::Error>(())
     /// ```
     pub fn mean_information(&self) -> E::Float {
-        E::information(&self.cells).mean()
+        self.rows.mean_information()
     }
 }
 
-/// What a thread takes at once: 1 MiB of cells.
+/// The bytes of cells that a thread takes at once: 1 MiB.
 #[cfg(feature = "rayon")]
 const PART: usize = 1 << 20;
 
 #[cfg(feature = "rayon")]
 impl<E: Encoding> Grid<E> {
-    /// [`Grid::tally`] by as many threads as rayon has: the same bits for any number of them.
+    /// Computes [`Grid::tally`] on rayon's threads: the same bits for any number of them.
     ///
     /// ```
     /// use mean_information::map::{Geometry, Grid, encoding::Percent};
@@ -123,7 +116,7 @@ impl<E: Encoding> Grid<E> {
         self.parts().map(E::tally).sum()
     }
 
-    /// [`Grid::mean_information`] by as many threads as rayon has: the same bits for any number of them.
+    /// Computes [`Grid::mean_information`] on rayon's threads: the same bits for any number of them.
     ///
     /// ```
     /// use mean_information::map::{Geometry, Grid, encoding::MrptLogOdds};
@@ -133,10 +126,11 @@ impl<E: Encoding> Grid<E> {
     /// # Ok::<(), mean_information::Error>(())
     /// ```
     pub fn par_mean_information(&self) -> E::Float {
-        self.parts().map(E::information).sum::<Information<_>>().mean()
+        self.parts().map(E::information_sum).sum::<InformationSum<_>>().mean()
     }
 
+    /// Returns the cells in parts of [`PART`] bytes.
     fn parts(&self) -> impl ParallelIterator<Item = &[E::Stored]> {
-        self.cells.par_chunks((PART / size_of::<E::Stored>().max(1)).max(1))
+        self.cells().par_chunks((PART / size_of::<E::Stored>().max(1)).max(1))
     }
 }

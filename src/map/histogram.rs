@@ -1,35 +1,36 @@
-//! How often each of the 256 bytes occurs: all that a measure needs of a map of bytes.
+//! The histogram of a map of bytes: the number of cells of each of the 256 values, which is all that a measure needs.
 //!
-//! Maps of bytes mostly hold very few values. So where a stretch held at most [`FEW`], the next is compared with
-//! these, many cells at once; only where something else turns up are its cells counted one by one, or in runs.
+//! Maps of bytes mostly hold very few values. So if a stretch of cells held at most [`FEW`] values, the next stretch is
+//! compared with these, many cells at once. Only if it holds another value are its cells counted one by one, or in runs.
 
-use super::Encoding;
+use super::stored::Encoding;
 use crate::cell::Cell;
-use crate::tally::{Information, Tally};
+use crate::tally::{InformationSum, Tally};
 use core::iter::Sum;
 use core::ops::AddAssign;
 
-/// The most cells of a stretch: counts below fit a byte and 64 lanes.
+/// The largest number of cells in a stretch: each of 64 lanes counts at most 255 in a byte.
 const STRETCH: usize = 255 * LANES;
+/// The number of counters that work side by side.
 const LANES: usize = 64;
-/// Comparing with more values takes as long as counting.
+/// The largest number of values to compare with; with more, counting is as fast.
 const FEW: usize = 4;
-/// The cells of a run that is counted at once.
+/// The number of equal cells that are counted at once.
 const RUN: usize = 32;
-/// The cells that tables of their own are worth, which must be cleared and added up.
+/// The number of cells from which separate tables pay, which must be cleared and added up.
 const TABLES_FROM: usize = 2048;
-/// The cells that comparing with few values is worth.
+/// The number of cells from which comparing with few values pays.
 const FEW_FROM: usize = 2 * LANES;
-/// After so many cells in pieces of fewer it is asked whether all values so far are few.
+/// The number of cells, in short pieces, after which the histogram is searched again for few values.
 const ASK_AFTER: u64 = 4096;
-/// More than counts can hold.
+/// The message for more cells than counts can hold.
 pub(super) const TOO_MANY: &str = "a histogram counts at most 2^64 - 1 cells";
 
 mod sealed {
     pub trait Sealed: Copy {
-        /// The same bits, without sign.
+        /// Returns the bits, without sign.
         fn byte(self) -> u8;
-        /// The value of these bits.
+        /// Returns the value of these bits.
         fn from_byte(byte: u8) -> Self;
     }
 
@@ -60,13 +61,13 @@ pub trait Byte: sealed::Sealed {}
 impl Byte for u8 {}
 impl Byte for i8 {}
 
-/// How often each of the 256 values of an 8-bit map occurs: all that its measures need, in 2 KB for any number of
-/// cells.
+/// The histogram of an 8-bit map: the number of cells of each of the 256 values, in 2 KB for any number of cells.
 ///
-/// Count a map in pieces as they are read, or parts of it on several threads and [merge](Histogram::merge) them; the
-/// [`tally`](Histogram::tally) then has the bits of the whole map's. A cell is counted by its bits, so those that are
-/// `i8` may come as the `u8` of a file. A cell takes 0.06 ns in long runs of few values, 0.15 in those of many, 0.3 if all
-/// are mixed; in pieces of some hundred cells 0.15, 0.3 and 0.3, in pieces of 8 up to 2 (measured, 2026-11-22).
+/// Add the pieces of a map as they are read, or count parts of it on several threads and [merge](Histogram::merge) them;
+/// the [`tally`](Histogram::tally) has the bits of the whole map's tally (Eqs. 2 to 4). A cell is counted by its bits, so
+/// cells of type `i8` may be added as the `u8` of a file. A cell takes 0.06 ns in long runs of few values, 0.15 ns in
+/// long runs of many values, 0.3 ns if values are mixed; in pieces of some hundred cells 0.15, 0.3 and 0.3 ns, in pieces
+/// of 8 cells up to 2 ns (measured, 2026-11-22).
 ///
 /// ```
 /// use mean_information::map::{Histogram, encoding::Percent};
@@ -83,11 +84,11 @@ impl Byte for i8 {}
 pub struct Histogram {
     counts: [u64; 256],
     cells: u64,
-    /// All values of the last stretch, if they were few; of short ones, of all before them.
+    /// The values of the last stretch, if they were few; after short pieces, those of the whole histogram.
     recent: Option<[u8; FEW]>,
 }
 
-/// By the counts: what was counted last is no matter.
+/// Equality of the counts, whatever was counted last.
 impl PartialEq for Histogram {
     fn eq(&self, other: &Self) -> bool {
         self.counts == other.counts
@@ -103,12 +104,12 @@ impl Default for Histogram {
 }
 
 impl Histogram {
-    /// That of no cells.
+    /// Creates an empty histogram.
     pub const fn new() -> Self {
         Self { counts: [0; 256], cells: 0, recent: None }
     }
 
-    /// That of the given cells.
+    /// Creates the histogram of the given cells.
     ///
     /// ```
     /// use mean_information::map::Histogram;
@@ -120,14 +121,15 @@ impl Histogram {
         histogram
     }
 
-    /// That of so many cells of each value, at the value's bits; `None` if they are more than `2^64 - 1`.
+    /// Creates a histogram from the number of cells of each value, indexed by the value's bits; `None` if there are more
+    /// than `2^64 - 1` cells.
     #[cfg(feature = "serde")]
     pub(super) fn from_counts(counts: &[u64; 256]) -> Option<Self> {
         let cells = counts.iter().try_fold(0_u64, |cells, &count| cells.checked_add(count))?;
         Some(Self { counts: *counts, cells, recent: None })
     }
 
-    /// Counts more cells.
+    /// Adds cells.
     ///
     /// # Panics
     /// If there would be more than `2^64 - 1` cells.
@@ -158,7 +160,7 @@ impl Histogram {
         }
     }
 
-    /// Counts `count` cells that hold `value`.
+    /// Adds `count` cells that hold `value`.
     ///
     /// # Panics
     /// If there would be more than `2^64 - 1` cells.
@@ -167,7 +169,7 @@ impl Histogram {
         self.counts[usize::from(value.byte())] += count;
     }
 
-    /// Counts the cells of another part of the map.
+    /// Adds the cells of another part of the map.
     ///
     /// # Panics
     /// If there would be more than `2^64 - 1` cells.
@@ -178,55 +180,56 @@ impl Histogram {
         }
     }
 
+    /// Adds to the number of all cells.
     fn add_to_cells(&mut self, more: u64) {
         self.cells = self.cells.checked_add(more).expect(TOO_MANY);
     }
 
-    /// The number of cells that hold `value`.
+    /// Returns the number of cells that hold `value`.
     pub fn count<B: Byte>(&self, value: B) -> u64 {
         self.counts[usize::from(value.byte())]
     }
 
-    /// The number of cells of each value, at the value's bits: -1 is at 255.
+    /// Returns the number of cells of each value, indexed by the value's bits: -1 is at 255.
     pub fn counts(&self) -> &[u64; 256] {
         &self.counts
     }
 
-    /// The number of all cells, also of those whose value an encoding does not allow.
+    /// Returns the number of all cells, including cells whose value an encoding does not allow.
     pub fn cells(&self) -> u64 {
         self.cells
     }
 
-    /// The tally of the cells in an encoding, passing over values that it does not allow: the bits of
+    /// Computes the tally of the cells in an encoding, skipping values that it does not allow: the bits of
     /// [`Encoding::tally`] of all cells counted. At most 256 exact terms are added (Eqs. 2 to 4; proved,
     /// [`sums`](crate::book::sums)).
     ///
-    /// An encoding of your own in 8 bits has a fast [`Encoding::tally`] by
-    /// `Histogram::from_cells(cells).tally::<Self>()`.
+    /// For an 8-bit encoding of your own, `Histogram::from_cells(cells).tally::<Self>()` is a fast
+    /// [`Encoding::tally`].
     pub fn tally<E: Encoding<Stored: Byte>>(&self) -> Tally<E::Float> {
         let mut tally = Tally::new();
         self.cells_of::<E>().for_each(|(cell, count)| tally.add_many(cell, count));
         tally
     }
 
-    /// The information of the cells in an encoding, passing over values that it does not allow: the bits of
-    /// that of their [`tally`](Histogram::tally), all that Eq. 4 needs.
+    /// Computes the sum of information of the cells in an encoding, skipping values that it does not allow: the same bits
+    /// as in their [`tally`](Histogram::tally), and all that Eq. 4 needs.
     ///
     /// ```
     /// use mean_information::map::{Histogram, encoding::Percent};
     /// let mut histogram = Histogram::from_cells(&[-1_i8, 100]);
     /// histogram.add_many(25_i8, 3);
-    /// let information = histogram.information::<Percent>();
+    /// let information = histogram.information_sum::<Percent>();
     /// assert_eq!((information.observed(), information.unknown()), (4, 1));
     /// assert_eq!(information.mean(), 0.39154140665565035); // bits per observed cell
     /// ```
-    pub fn information<E: Encoding<Stored: Byte>>(&self) -> Information<E::Float> {
-        let mut information = Information::new();
+    pub fn information_sum<E: Encoding<Stored: Byte>>(&self) -> InformationSum<E::Float> {
+        let mut information = InformationSum::new();
         self.cells_of::<E>().for_each(|(cell, count)| information.add_many(cell, count));
         information
     }
 
-    /// The allowed cells that occur, and how often.
+    /// Returns the allowed cells that occur, with their counts.
     fn cells_of<E: Encoding<Stored: Byte>>(&self) -> impl Iterator<Item = (Cell<E::Float>, u64)> {
         let present = (0..=255).zip(self.counts).filter(|&(_, count)| count > 0);
         present.filter_map(|(byte, count)| Some((E::cell(sealed::Sealed::from_byte(byte))?, count)))
@@ -249,7 +252,7 @@ impl<B: Byte> FromIterator<B> for Histogram {
     }
 }
 
-/// That of all parts of a map, also of a rayon iterator: [`merge`](Histogram::merge) by `sum()`.
+/// Merges the histograms of an iterator's parts, so that `sum()` works on serial and rayon iterators.
 impl Sum for Histogram {
     fn sum<I: Iterator<Item = Self>>(parts: I) -> Self {
         parts.fold(Self::new(), |mut sum, part| {
@@ -259,7 +262,7 @@ impl Sum for Histogram {
     }
 }
 
-/// The values that occur, if they are few; filled up with one of them.
+/// Returns the values that occur, if they are at most [`FEW`]; the first one fills the places that are left.
 fn few_values<C: PartialEq + From<u8>>(counts: &[C; 256]) -> Option<[u8; FEW]> {
     let mut present = (0_u8..=255).filter(|&byte| counts[usize::from(byte)] != C::from(0));
     let first = present.next()?;
@@ -270,7 +273,7 @@ fn few_values<C: PartialEq + From<u8>>(counts: &[C; 256]) -> Option<[u8; FEW]> {
     present.next().is_none().then_some(values)
 }
 
-/// How often each value occurs, if no other does; the first takes what is its own only once.
+/// Counts the cells of each of `values`; `None` if a cell has another value. Repetitions of the first value count 0.
 // Apart from its caller: the compiler makes faster vector code of it alone.
 #[inline(never)]
 fn count_few<B: Byte>(stretch: &[B], values: [u8; FEW]) -> Option<[u32; FEW]> {
@@ -295,14 +298,14 @@ fn count_few<B: Byte>(stretch: &[B], values: [u8; FEW]) -> Option<[u32; FEW]> {
     (counts.iter().sum::<u32>() as usize == stretch.len()).then_some(counts)
 }
 
-/// Into four tables, since equal neighbours would wait for each other in one.
+/// Counts cells in four tables, because in one table equal neighbours would wait for each other.
 fn count_all<B: Byte>(cells: &[B]) -> [u32; 256] {
     let mut tables = [[0_u32; 256]; 4];
     count_into(&mut tables, cells);
     core::array::from_fn(|byte| tables.iter().map(|table| table[byte]).sum())
 }
 
-/// One by one, into each table in turn. But runs at once: grey maps are mostly runs of many values.
+/// Counts cells one by one, in each table in turn; a run of equal cells at once, since grey maps mostly consist of runs.
 fn count_into<B: Byte, C: AddAssign + From<u8>, const N: usize>(tables: &mut [[C; 256]; N], cells: &[B]) {
     let (runs, rest) = cells.as_chunks::<RUN>();
     for run in runs {

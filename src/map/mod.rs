@@ -1,6 +1,7 @@
 //! Occupancy maps: a Cartesian [`Grid`] of cells with its [`Geometry`], the [`PolarMap`] about a sensor, the
 //! [`encoding`]s that maps are stored in, the [`Histogram`] of maps of bytes, and the pooling of cells into coarser ones.
 
+mod cell_rows;
 pub mod encoding;
 mod geometry;
 mod grid;
@@ -11,9 +12,10 @@ mod pooling;
 #[cfg(feature = "serde")]
 mod portable;
 pub(crate) mod repeated;
+mod stored;
 
-pub use encoding::Encoding;
 pub use geometry::Geometry;
 pub use grid::Grid;
 pub use histogram::{Byte, Histogram};
 pub use polar::PolarMap;
+pub use stored::Encoding;

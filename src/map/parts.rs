@@ -1,10 +1,10 @@
-//! The cells of a grid in parts, by their numbers row by row: what a thread takes at once, and what lies in one row.
+//! Parts of a grid's cells, which are numbered row by row: parts for threads, and pieces of single rows.
 
 use core::ops::Range;
 #[cfg(feature = "rayon")]
 use rayon::prelude::*;
 
-/// Parts of nearly equal size, since cells take their own time more than there are threads.
+/// Splits the cells into parts of nearly equal size: 16 for each thread, because cells differ in the time they take.
 #[cfg(feature = "rayon")]
 pub(crate) fn for_threads(cells: u64) -> impl ParallelIterator<Item = Range<u64>> {
     let parts = 16 * rayon::current_num_threads();
@@ -12,7 +12,8 @@ pub(crate) fn for_threads(cells: u64) -> impl ParallelIterator<Item = Range<u64>
     (0..parts).into_par_iter().map(move |part| start(part)..start(part + 1))
 }
 
-/// Of the cells of a grid of so many columns: their row and its columns, at most `most` at once.
+/// Splits a range of cells of a grid of `width` columns into pieces of single rows: the row and its columns, at most
+/// `most` of them.
 pub(crate) fn rows(
     cells: Range<u64>,
     width: usize,

@@ -1,17 +1,18 @@
 //! Coarser maps: each `k x k` block of cells becomes one cell that holds the mean of their occupancies.
 
 use super::encoding::Probability;
-use super::{Encoding, Grid};
+use super::grid::Grid;
+use super::stored::Encoding;
 use crate::error::Error;
 use crate::tally::ExactSum;
 use alloc::vec::Vec;
 
 impl<E: Encoding> Grid<E> {
-    /// The grid of `k` times the resolution in which each cell holds the mean occupancy of its `k x k` block.
+    /// Creates the grid of `k` times the resolution in which each cell holds the mean occupancy of its `k x k` block.
     ///
     /// Blocks start at row 0 and column 0. Where `k` does not divide the size, the blocks at the upper and right edges reach
-    /// beyond the map, and what lies there is unknown: the result is that of the map padded with unknown cells to whole
-    /// blocks, which is the same map to every measure.
+    /// beyond the map, where all is unknown: the result is that of the map padded with unknown cells to whole blocks, which
+    /// has the same mean information.
     ///
     /// Each mean is the exact mean of [`Encoding::occupancy`], rounded once to nearest. So a block of unknown cells is
     /// exactly 1/2, and stays unknown. By Jensen's inequality (`I` is convex) the information of a coarse cell is at
@@ -50,12 +51,13 @@ impl<E: Encoding> Grid<E> {
         Grid::new(width, height, geometry, cells)
     }
 
-    /// The exact mean occupancy of the block at this corner, rounded once to nearest.
+    /// Computes the exact mean occupancy of the block at this corner, rounded once to nearest.
     fn mean_occupancy(&self, row: usize, column: usize, k: usize) -> E::Float {
         let rows = row..(row + k).min(self.height());
         let columns = column..(column + k).min(self.width());
         let area = (k as u64).pow(2);
         let mut sum = ExactSum::new();
+        // The part of the block beyond the map is unknown.
         sum.add_many(0.5_f64, area - (rows.len() * columns.len()) as u64);
         for row in rows.filter_map(|row| self.row(row)) {
             row[columns.clone()].iter().filter_map(|&stored| E::occupancy(stored)).for_each(|p| sum.add(p));

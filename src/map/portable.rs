@@ -1,6 +1,7 @@
 //! Histograms as text, so that they can travel between machines and be merged there (feature `serde`).
 //!
-//! A list of the 256 counts, at the values' bits: what NumPy's `bincount(cells.view(uint8), minlength=256)` gives.
+//! The form is a list of the 256 counts, indexed by the values' bits, as NumPy's
+//! `bincount(cells.view(uint8), minlength=256)` returns it.
 
 use super::histogram::{Histogram, TOO_MANY};
 use alloc::vec::Vec;

@@ -1,31 +1,33 @@
 //! Counts of values that occur again and again, so that each is computed once for many cells.
 //!
-//! A map that scans were added to holds few log-odds, multiples of the readings' own; hypotheses agree on few values.
-//! So cells are counted by their value first, each in the slot of its hash; when another value comes to a slot, the
-//! count of the old one is given back. Sums of cells are exact: in any order they are the same.
+//! A map made from scans holds few different log-odds, sums of those of single readings; hypotheses agree on few values.
+//! So cells are counted by their value first, each in the slot of its hash. When another value needs the slot, the old
+//! one is returned with its count. Sums of cells are exact, so their order does not matter.
 
-use super::Encoding;
+use super::stored::Encoding;
 use crate::real::Real;
 use crate::tally::Tally;
 use alloc::{vec, vec::Vec};
 
-/// The most values counted at a time: 64 KB of `f64`, 128 KB of 16 bytes each, which the nearer caches hold.
+/// The largest number of slots: 64 KB of `f64`, 128 KB of values of 16 bytes, which fit in the second-level cache.
 const SLOTS: u64 = 1 << 12;
 
-/// How often values came, the latest of each slot.
+/// A table of values and their counts, one value for each hash.
 pub(crate) struct Repeated<K> {
     slots: Vec<(K, u64)>,
     bits: u32,
 }
 
 impl<K: Copy + PartialEq> Repeated<K> {
-    /// To count the values of so many cells; `any` value fills empty slots.
+    /// Creates a table for the values of `cells` cells. The value `any` fills empty slots.
     pub(crate) fn new(cells: u64, any: K) -> Self {
         let bits = cells.min(SLOTS).next_power_of_two().trailing_zeros().max(1);
         Self { slots: vec![(any, 0); 1 << bits], bits }
     }
 
-    /// Counts a value, of which equal ones should have equal `bits`; gives back what lost its slot to it.
+    /// Adds `count` to a value's slot, hashed by `bits` (equal for equal values).
+    ///
+    /// If the slot held another value, returns that value and its count: the caller must add them to its sums.
     #[inline]
     pub(crate) fn add(&mut self, value: K, bits: u64, count: u64) -> Option<(K, u64)> {
         // Fibonacci hashing: the high bits of a product with 2^64 over the golden ratio.
@@ -39,12 +41,13 @@ impl<K: Copy + PartialEq> Repeated<K> {
         (lost.1 > 0).then_some(lost)
     }
 
-    /// What is left, and none of it any more.
+    /// Returns the values that are still in the table, with their counts.
     pub(crate) fn into_counts(self) -> impl Iterator<Item = (K, u64)> {
         self.slots.into_iter().filter(|&(_, count)| count > 0)
     }
 }
 
+/// Computes the tally of stored floats, with one evaluation for each run of equal values in a slot.
 pub(super) fn tally<E: Encoding<Stored: Real>>(cells: &[E::Stored]) -> Tally<E::Float> {
     let mut tally = Tally::new();
     let mut add = |(stored, count): (E::Stored, u64)| {

@@ -1,6 +1,7 @@
-//! What each operation computes.
+//! The computation of each operation.
 
-use super::{Answer, Operation, Refusal, Value};
+use super::answer::{Answer, Refusal, Value};
+use super::operation::{Operation, Which};
 use crate::cell::{Cell, occupancy_from_log_odds};
 use crate::error::{Error, finite, positive};
 use crate::expected::Hypotheses;
@@ -14,46 +15,19 @@ use crate::sensor::{GaussianSensor, InverseSensorModel};
 use crate::tally::Tally;
 use alloc::vec::Vec;
 
-/// Samples of a grid, at most: some seconds.
+/// The largest number of samples of a grid: some seconds.
 const MAX_SAMPLES: u64 = 1 << 26;
 
-/// The operations, for `match`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Which {
-    CellEntropy,
-    CellInformation,
-    CellEntropyFromLogOdds,
-    CellInformationFromLogOdds,
-    CellOccupancyFromLogOdds,
-    SensorOccupancy,
-    MapEntropy,
-    MapInformation,
-    MapMeanInformation,
-    MapObserved,
-    FuseLogOdds,
-    ExpectedMeanInformation,
-    GridPolar,
-    GridCartesian,
-    LimitRadial,
-    LimitArea,
-}
-
-impl From<Error> for Refusal {
-    fn from(error: Error) -> Self {
-        Self::Domain(error)
-    }
-}
-
 impl Operation {
-    /// The result for these arguments, in the format `T`.
+    /// Computes the result for these arguments, in the format `T`.
     ///
-    /// **Error**: within [`Operation::tolerance_ulp`], or what the function promises, which is less
-    /// ([`guarantees`](crate::book::guarantees)); of a grid, what `vectors/README.md` allows (measured, on the
+    /// **Error**: within [`Operation::tolerance_ulp`], and within the bound of the function, which is smaller
+    /// ([`guarantees`](crate::book::guarantees)); for a grid, within what `vectors/README.md` allows (measured on the
     /// vectors).
     ///
     /// # Errors
     /// [`Refusal::Domain`] outside the domain; [`Refusal::TooLarge`] for grids of more than `2^26` samples or beyond
-    /// what the format holds; [`Refusal::Arguments`] if number or shapes of the arguments are not those of the
+    /// the range of the format; [`Refusal::Arguments`] if number or shapes of the arguments are not those of the
     /// operation.
     ///
     /// ```
@@ -118,17 +92,17 @@ impl Operation {
     }
 }
 
-/// The sums over a map of these occupancies.
+/// Computes the sums over a map of these occupancies.
 fn tally<T: Real>(cells: &[T]) -> Result<Tally<T>, Error> {
     row(cells).map(|map| map.tally())
 }
 
-/// A map of one row.
+/// Creates a map of one row.
 fn row<T: Real>(cells: &[T]) -> Result<Grid<Probability<T>>, Error> {
     Grid::new(cells.len(), 1, Geometry::new(1.0, [0.0, 0.0])?, cells.to_vec())
 }
 
-/// The sums over the expected map of particles of one row each.
+/// Computes the sums over the expected map of particles of one row each.
 fn expected<T: Real>(weights: &[T], particles: &[Vec<T>]) -> Result<Tally<T>, Error> {
     let maps = particles.iter().map(|cells| row(cells)).collect::<Result<Vec<_>, _>>()?;
     let cells = maps.first().map_or(0, Grid::width);
@@ -140,7 +114,7 @@ fn expected<T: Real>(weights: &[T], particles: &[Vec<T>]) -> Result<Tally<T>, Er
     Hypotheses::new(&maps, &weights)?.expected_map().map(|map| map.tally().clone())
 }
 
-/// The sensor and the resolution of a room.
+/// Checks the sensor and the resolution of a room.
 fn room<T: Real>(range: T, sigma: T, resolution: T) -> Result<(GaussianSensor<T>, T), Error> {
     Ok((GaussianSensor::new(range, sigma)?, positive("resolution", resolution)?))
 }

@@ -1,8 +1,8 @@
-//! The list.
+//! The list of operations.
 
-use super::run::Which;
-use super::{Argument, Operation, Outcome, Shape};
+use super::operation::{Argument, Operation, Outcome, Shape, Which};
 
+/// Creates an argument that is a float.
 const fn float(name: &'static str) -> Argument {
     Argument { name, shape: Shape::Float }
 }
@@ -17,7 +17,7 @@ const LOG_ODDS: &str = "l any number, infinities too";
 const OCCUPANCIES: &str = "each cell from 0 to 1";
 const POSITIVE: &str = "range, sigma positive and finite";
 
-/// An operation of `bits` from its name, arguments, domain, equation and function; correctly rounded.
+/// Creates an operation whose result is a float, correctly rounded.
 const fn rounded(
     which: Which,
     name: &'static str,
@@ -30,12 +30,12 @@ const fn rounded(
     Operation { name, arguments, result, domain, equation, function, tolerance_ulp, which }
 }
 
-/// One whose result is a sum, a quotient of sums or an integral.
+/// Widens the tolerance for a sum, a quotient of sums or an integral: 2 ulp.
 const fn summed(operation: Operation) -> Operation {
     Operation { tolerance_ulp: 2.0, ..operation }
 }
 
-/// Every operation, in the order of the report.
+/// The list of all operations, in the order of the report.
 pub const OPERATIONS: &[Operation] = &[
     rounded(
         Which::CellEntropy,
@@ -175,3 +175,14 @@ pub const OPERATIONS: &[Operation] = &[
         "limit::closed_form",
     )),
 ];
+
+/// Finds the operation of a name.
+///
+/// ```
+/// use mean_information::operations::find;
+/// assert_eq!(find("limit.area").map(|operation| operation.tolerance_ulp), Some(2.0));
+/// assert_eq!(find("limit.volume"), None);
+/// ```
+pub fn find(name: &str) -> Option<&'static Operation> {
+    OPERATIONS.iter().find(|operation| operation.name == name)
+}

@@ -35,10 +35,10 @@ pub struct CartesianRoom<M: InverseSensorModel> {
     offsets: [M::Float; 2],
 }
 
-/// What has too many cells.
+/// The name of the grid in errors.
 const WHAT: &str = "the Cartesian grid of a room";
 
-/// The axes of a grid, and how many of their distances it has.
+/// The axes of a grid, with the numbers of distances along each.
 struct Extent<T> {
     x: Axis<T>,
     y: Axis<T>,
@@ -47,7 +47,8 @@ struct Extent<T> {
 }
 
 impl<M: InverseSensorModel> CartesianRoom<M> {
-    /// The room that `model` sees, in cells of side `resolution` (metres) at `offsets` (cells), sampled at their centres.
+    /// Creates the room that `model` sees, in cells of side `resolution` (metres) at `offsets` (cells), sampled at their
+    /// centres.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if the resolution or the reach of the model is not positive and finite, or an offset not finite.
@@ -58,7 +59,7 @@ impl<M: InverseSensorModel> CartesianRoom<M> {
         Ok(Self { samples: Samples::new(model, resolution)?, offsets })
     }
 
-    /// The same room with cells sampled so. Each has as many rows of samples as the number of [`Sampling::Averaged`] says,
+    /// Sets how cells are sampled. Each has as many rows of samples as the number of [`Sampling::Averaged`] says,
     /// and as many in a row.
     ///
     /// # Errors
@@ -68,16 +69,17 @@ impl<M: InverseSensorModel> CartesianRoom<M> {
         Ok(self)
     }
 
-    /// The same room, refusing to take more than `limit` samples, counted over the whole rectangle; unless told so, `2^34`.
+    /// Sets the largest number of samples, counted over the whole rectangle; the default is `2^34`.
     #[must_use]
     pub fn with_limit(mut self, limit: u64) -> Self {
         self.samples.limit = limit;
         self
     }
 
-    /// The distance (metres) of the centre of cell `(i, j)`: `h √((i + offset_x)^2 + (j + offset_y)^2)`, correctly rounded.
+    /// Computes the distance (metres) of the centre of cell `(i, j)`, correctly rounded:
+    /// `h √((i + offset_x)^2 + (j + offset_y)^2)`.
     ///
-    /// Here `i` and `j` count from the cell nearest to the sensor: of the offsets, whole cells are dropped.
+    /// Here `i` and `j` count from the cell nearest to the sensor: whole cells in the offsets are dropped.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if `i` or `j` is `2^44` or more.
@@ -100,7 +102,7 @@ impl<M: InverseSensorModel> CartesianRoom<M> {
         Ok(distance(self.samples.resolution, -1, centre(x.at(i)), centre(y.at(j))))
     }
 
-    /// Columns.
+    /// Returns the number of columns.
     ///
     /// # Errors
     /// [`Error::TooManyCells`] if the grid has more samples than the limit.
@@ -108,7 +110,7 @@ impl<M: InverseSensorModel> CartesianRoom<M> {
         self.extent().map(|extent| extent.width())
     }
 
-    /// Rows.
+    /// Returns the number of rows.
     ///
     /// # Errors
     /// [`Error::TooManyCells`] if the grid has more samples than the limit.
@@ -116,11 +118,11 @@ impl<M: InverseSensorModel> CartesianRoom<M> {
         self.extent().map(|extent| extent.height())
     }
 
-    /// Entropy, information and counts over all cells (Eqs. 2 to 4), to the bits of [`map`](Self::map) and its tally, without
-    /// the map.
+    /// Computes entropy, information and counts over all cells (Eqs. 2 to 4) without the map: the bits of the tally of
+    /// [`map`](Self::map).
     ///
-    /// Cells at mirrored places are counted at once, as are cells of the model's [plateau](InverseSensorModel::plateau): one
-    /// in eight is evaluated with offsets of 0 or 1/2.
+    /// Mirror images of a cell are counted at once, as are the cells of the model's
+    /// [plateau](InverseSensorModel::plateau). With offsets of 0 or 1/2, one cell in eight is evaluated.
     ///
     /// # Errors
     /// [`Error::TooManyCells`] if the grid has more samples than the limit; [`Error::OutOfRange`] if the model gives an
@@ -129,11 +131,11 @@ impl<M: InverseSensorModel> CartesianRoom<M> {
         self.tally_part(0, 1)
     }
 
-    /// Part `part` of `parts` of the tally, about equal in work, for as many threads or machines: merged in any order they
-    /// have the bits of the tally.
+    /// Computes part `part` of `parts` of the tally, for threads or machines. Parts take about equal work; merged in any
+    /// order they have the bits of the tally.
     ///
     /// # Errors
-    /// As [`tally`](Self::tally), and [`Error::OutOfRange`] if `part` is not below `parts`.
+    /// Those of [`tally`](Self::tally), and [`Error::OutOfRange`] if `part` is not below `parts`.
     ///
     /// ```
     /// use mean_information::room::CartesianRoom;
@@ -155,15 +157,15 @@ impl<M: InverseSensorModel> CartesianRoom<M> {
             cells += extent.cells_of_row(row);
             self.add_row(&extent, row, &mut tally)?;
         }
-        // What is beyond the reach.
+        // Cells beyond the reach are unknown.
         tally.add_many(Cell::unknown(), cells - tally.cells());
         Ok(tally)
     }
 
-    /// [`CartesianRoom::tally`] by as many threads as rayon has: the same bits for any number of them.
+    /// Computes [`CartesianRoom::tally`] on rayon's threads: the same bits for any number of them.
     ///
     /// # Errors
-    /// As [`tally`](Self::tally).
+    /// Those of [`tally`](Self::tally).
     ///
     /// ```
     /// use mean_information::room::CartesianRoom;
@@ -178,13 +180,13 @@ impl<M: InverseSensorModel> CartesianRoom<M> {
         M: Sync,
     {
         use rayon::prelude::*;
-        // Rows take their own time: more parts than threads.
+        // Rows differ in the time they take: more parts than threads.
         let parts = 16 * rayon::current_num_threads();
         (0..parts).into_par_iter().map(|part| self.tally_part(part, parts)).sum()
     }
 
-    /// The map itself, row 0 the lowest, with its place in the world: each cell the model's occupancy at its
-    /// [`distance`](Self::distance), or the exact average of its samples' rounded once.
+    /// Creates the map, row 0 the lowest, with its place in the world. Each cell has the model's occupancy at its
+    /// [`distance`](Self::distance), or the exact mean over its samples, rounded once.
     ///
     /// # Errors
     /// [`Error::TooManyCells`] if it has more than `max_cells` cells, or more samples than the limit; [`Error::OutOfRange`] if
@@ -219,10 +221,12 @@ impl<M: InverseSensorModel> CartesianRoom<M> {
         Grid::new(width as usize, height as usize, Geometry::new(resolution, origin)?, cells)
     }
 
+    /// Returns the axes of cells with `per_side` samples along each.
     fn axes(&self, per_side: u32) -> [Axis<M::Float>; 2] {
         self.offsets.map(|offset| Axis::new(offset, per_side))
     }
 
+    /// Finds how many columns and rows have a sample within the reach, and refuses too many samples.
     fn extent(&self) -> Result<Extent<M::Float>, Error> {
         let samples = &self.samples;
         let along = 2.0 * samples.along_a_beam();
@@ -243,8 +247,8 @@ impl<M: InverseSensorModel> CartesianRoom<M> {
         if count > u128::from(samples.limit) { Err(samples.refused(WHAT, count as f64)) } else { Ok(extent) }
     }
 
-    /// Adds the cells within reach of the rows at one distance; where the axes have the same distances, only those not
-    /// farther out along x than along y, for both.
+    /// Adds the cells within reach of the rows at one distance. If both axes have the same distances, only cells that are not
+    /// farther out along x than along y are evaluated, and counted for both.
     fn add_row(&self, extent: &Extent<M::Float>, row: u64, tally: &mut Tally<M::Float>) -> Result<(), Error> {
         let samples = &self.samples;
         let y = extent.y.nearest(row);
@@ -263,10 +267,12 @@ impl<M: InverseSensorModel> CartesianRoom<M> {
         Ok(())
     }
 
+    /// Computes the distance of a sample from the sensor.
     fn at(&self, x: Coordinate, y: Coordinate) -> M::Float {
         distance(self.samples.resolution, self.samples.scale(), x, y)
     }
 
+    /// Computes the occupancy of a cell by its sampling.
     fn occupancy(&self, x: AxisCell<M::Float>, y: AxisCell<M::Float>) -> Result<M::Float, Error> {
         if self.samples.per_side == 1 {
             self.samples.at(self.at(x.far(), y.far()))
@@ -277,25 +283,27 @@ impl<M: InverseSensorModel> CartesianRoom<M> {
 }
 
 impl<T: Real> Extent<T> {
+    /// Returns the number of columns.
     fn width(&self) -> u64 {
         self.x.cells(self.columns)
     }
 
+    /// Returns the number of rows.
     fn height(&self) -> u64 {
         self.y.cells(self.rows)
     }
 
-    /// Whether exchanging x and y maps the grid to itself.
+    /// Returns whether exchanging x and y maps the grid to itself.
     fn is_diagonal(&self) -> bool {
         self.x.has_the_distances_of(&self.y)
     }
 
-    /// The columns that stand for all cells of a row: up to the diagonal, if that is a mirror.
+    /// Returns the number of columns that are evaluated in a row: up to the diagonal, if that is a mirror.
     fn columns_of_row(&self, row: u64) -> u64 {
         if self.is_diagonal() { self.columns.min(row + 1) } else { self.columns }
     }
 
-    /// How many cells those of the columns from `start` to `end` (not included) of a row stand for.
+    /// Returns the number of cells that the columns from `start` to `end` (not included) of a row represent.
     fn cells(&self, start: u64, end: u64, row: u64) -> u64 {
         let columns = |end: u64| self.x.cells(end);
         let rows = self.y.cells(row + 1) - self.y.cells(row);
@@ -309,6 +317,7 @@ impl<T: Real> Extent<T> {
         }
     }
 
+    /// Returns the number of cells that a row represents.
     fn cells_of_row(&self, row: u64) -> u64 {
         self.cells(0, self.columns_of_row(row), row)
     }

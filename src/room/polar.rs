@@ -15,7 +15,7 @@ use alloc::vec::Vec;
 /// The polar map `m_ρ` of a circular room with the sensor at its centre: rings of equal width from `ρ = 0`, as many as have a
 /// sample within the sensor's reach.
 ///
-/// All sectors are alike, so one stands for the map. Ring `k` has its centre at `(k + 1/2) h`. A sample's distance is the
+/// All sectors are equal, so one represents the map. Ring `k` has its centre at `(k + 1/2) h`. A sample's distance is the
 /// exact one rounded once to nearest, and its occupancy what the model gives for that float
 /// ([`grids`](crate::book::grids)).
 ///
@@ -33,7 +33,7 @@ pub struct PolarRoom<M: InverseSensorModel> {
 }
 
 impl<M: InverseSensorModel> PolarRoom<M> {
-    /// The room that `model` sees, in rings of width `resolution` (metres), sampled at their centres.
+    /// Creates the room that `model` sees, in rings of width `resolution` (metres), sampled at their centres.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if the resolution or the reach of the model is not positive and finite.
@@ -41,7 +41,7 @@ impl<M: InverseSensorModel> PolarRoom<M> {
         Ok(Self { samples: Samples::new(model, resolution)? })
     }
 
-    /// The same room with cells sampled so. Each has as many samples as the number of [`Sampling::Averaged`] says.
+    /// Sets how cells are sampled. Each has as many samples as the number of [`Sampling::Averaged`] says.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if that number is not a power of two up to 1024.
@@ -50,14 +50,14 @@ impl<M: InverseSensorModel> PolarRoom<M> {
         Ok(self)
     }
 
-    /// The same room, refusing to take more than `limit` samples; unless told so, `2^34`.
+    /// Sets the largest number of samples; the default is `2^34`.
     #[must_use]
     pub fn with_limit(mut self, limit: u64) -> Self {
         self.samples.limit = limit;
         self
     }
 
-    /// The distance (metres) of the centre of ring `k`: `(k + 1/2) h`, correctly rounded.
+    /// Computes the distance (metres) of the centre of ring `k`, `(k + 1/2) h`, correctly rounded.
     ///
     /// ```
     /// use mean_information::room::PolarRoom;
@@ -70,7 +70,7 @@ impl<M: InverseSensorModel> PolarRoom<M> {
         multiple(self.samples.resolution, -1, 2 * u128::from(k) + 1)
     }
 
-    /// How many rings there are.
+    /// Returns the number of rings.
     ///
     /// # Errors
     /// [`Error::TooManyCells`] if they have more samples than the limit.
@@ -88,7 +88,7 @@ impl<M: InverseSensorModel> PolarRoom<M> {
         if count > u128::from(samples.limit) { Err(refused(count as f64)) } else { Ok(rings) }
     }
 
-    /// Entropy, information and counts of one sector.
+    /// Computes entropy, information and counts of one sector.
     ///
     /// Cells of the model's [plateau](InverseSensorModel::plateau) are counted at once, to the same bits.
     ///
@@ -108,8 +108,8 @@ impl<M: InverseSensorModel> PolarRoom<M> {
         Ok(tally)
     }
 
-    /// The map itself, in `sectors` equal sectors: each cell the model's occupancy at its [`distance`](Self::distance),
-    /// or the exact average of its samples' rounded once.
+    /// Creates the map of `sectors` equal sectors. Each cell has the model's occupancy at its
+    /// [`distance`](Self::distance), or the exact mean over its samples, rounded once.
     ///
     /// # Errors
     /// [`Error::TooManyCells`] if it has more than `max_cells` cells, or its rings more samples than the limit;
@@ -134,12 +134,13 @@ impl<M: InverseSensorModel> PolarRoom<M> {
         PolarMap::new(sectors, beam.len(), self.samples.resolution.widen(), beam.repeat(sectors))
     }
 
-    /// The distance of a sample of ring `k`.
+    /// Computes the distance of a sample of ring `k`.
     fn sample(&self, k: u64, sample: u32) -> M::Float {
         let half_steps = 2 * (u128::from(k) * u128::from(self.samples.per_side) + u128::from(sample)) + 1;
         multiple(self.samples.resolution, self.samples.scale(), half_steps)
     }
 
+    /// Computes the occupancy of ring `k` by its sampling.
     fn occupancy(&self, k: u64) -> Result<M::Float, Error> {
         let samples = &self.samples;
         if samples.per_side == 1 {

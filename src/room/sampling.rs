@@ -1,4 +1,4 @@
-//! Where a room samples its model, and when it refuses to: what both rooms share.
+//! The sampling of the model and the limit on samples, which both rooms share.
 
 use crate::cell::{Cell, in_unit_interval};
 use crate::error::{Error, positive};
@@ -7,27 +7,27 @@ use crate::sensor::InverseSensorModel;
 use crate::tally::ExactSum;
 use num_traits::Zero;
 
-/// How a cell of a room gets its occupancy.
+/// The way in which a cell of a room gets its occupancy.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Sampling {
     /// The model at the cell's centre.
     #[default]
     Centre,
-    /// The mean of the model over the cell: exact over the centres of equal parts, so many to a side, rounded once.
+    /// The mean of the model over the cell: the exact mean over the centres of equal parts, with this number of parts along
+    /// a side, rounded once.
     ///
-    /// The number is a power of two up to 1024: so the samples lie at exact places, and the cells of grids nested in one
-    /// another share them. How far this mean is from that over the whole cell is proved in
-    /// [`grids`](crate::book::grids#averages).
+    /// The number is a power of two up to 1024. So the samples lie at exact places, and nested grids share them. The
+    /// distance of this mean from the mean over the whole cell is bounded in [`grids`](crate::book::grids#averages).
     Averaged(u32),
 }
 
-/// Samples per side of a cell, at most.
+/// The largest number of samples along a side of a cell.
 const MAX_PER_SIDE: u32 = 1 << 10;
 
-/// The samples that a grid may take unless told otherwise: some minutes.
+/// The default limit on samples: some minutes.
 const DEFAULT_LIMIT: u64 = 1 << 34;
 
-/// What the two rooms share: the model, where it is sampled, and when to refuse.
+/// The model of a room, where it is sampled, and the limit.
 #[derive(Clone, Debug)]
 pub(super) struct Samples<M: InverseSensorModel> {
     model: M,
@@ -39,12 +39,14 @@ pub(super) struct Samples<M: InverseSensorModel> {
 }
 
 impl<M: InverseSensorModel> Samples<M> {
+    /// Creates the samples at the centres of cells.
     pub(super) fn new(model: M, resolution: M::Float) -> Result<Self, Error> {
         let resolution = positive("resolution", resolution)?;
         let (reach, plateau) = (positive("reach of the sensor", model.reach())?, model.plateau());
         Ok(Self { model, resolution, reach, plateau, per_side: 1, limit: DEFAULT_LIMIT })
     }
 
+    /// Sets how cells are sampled.
     pub(super) fn set_sampling(&mut self, sampling: Sampling) -> Result<(), Error> {
         self.per_side = match sampling {
             Sampling::Centre => 1,
@@ -56,21 +58,22 @@ impl<M: InverseSensorModel> Samples<M> {
         Ok(())
     }
 
-    /// Places are in units of half the distance of two samples: `resolution 2^scale`.
+    /// Returns the exponent of the unit of places, half the distance of two samples: `resolution 2^scale`.
     pub(super) fn scale(&self) -> i32 {
         -1 - self.per_side.trailing_zeros() as i32
     }
 
-    /// Samples from the sensor to its reach, about.
+    /// Estimates the number of samples from the sensor to its reach.
     pub(super) fn along_a_beam(&self) -> f64 {
         self.reach.widen() / self.resolution.widen() * f64::from(self.per_side)
     }
 
+    /// Creates the error of too many samples.
     pub(super) fn refused(&self, what: &'static str, count: f64) -> Error {
         Error::TooManyCells { what, count, limit: self.limit }
     }
 
-    /// The model at one distance.
+    /// Evaluates the model at one distance.
     pub(super) fn at(&self, rho: M::Float) -> Result<M::Float, Error> {
         let p = self.model.occupancy(rho);
         if in_unit_interval(p) {
@@ -80,7 +83,7 @@ impl<M: InverseSensorModel> Samples<M> {
         }
     }
 
-    /// The exact mean of the model over these distances, rounded once to nearest.
+    /// Computes the exact mean of the model over these distances, rounded once to nearest.
     pub(super) fn mean(&self, distances: impl Iterator<Item = M::Float>) -> Result<M::Float, Error> {
         let (mut sum, mut count) = (ExactSum::new(), 0);
         for rho in distances {
@@ -90,7 +93,7 @@ impl<M: InverseSensorModel> Samples<M> {
         Ok(sum.mean(count))
     }
 
-    /// The cells of the plateau.
+    /// Returns the cell that all cells of the plateau equal.
     pub(super) fn plateau_cell(&self) -> Result<Cell<M::Float>, Error> {
         Cell::from_occupancy(self.at(M::Float::zero())?)
     }

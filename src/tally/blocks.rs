@@ -1,18 +1,20 @@
-//! Occupancies by the vector kernels: whole blocks at once, and what these leave open.
+//! Summation of occupancies by the vector kernels: whole blocks at once (theorem *blocks*, [`sums`](crate::book::sums)),
+//! and the cells that a block leaves undecided.
 
 use crate::real::Real;
 use crate::rounded::lanes::{BLOCK, Block};
 
-/// Fewer cells than these are as quickly done one by one, without the kernels' tables.
+/// The number of cells below which single cells are as fast as a block, and need no tables.
 const FEW: usize = 16;
 
-/// Hands the sums of each block of the cells to `take`, with the cells that they leave open; the few cells after
-/// the last.
+/// Calls `take` with the sums of each block and the cells that the block leaves undecided. Returns the cells after the
+/// last block: fewer than [`FEW`].
 pub(super) fn each<T: Real>(
     mut cells: &[T],
     sums: fn(&[T; BLOCK]) -> Block,
     mut take: impl FnMut(&Block, &mut dyn Iterator<Item = T>),
 ) -> &[T] {
+    // A block holds few enough cells that neither of its two integer sums overflows: theorem (blocks), "Sums".
     while let Some((block, rest)) = cells.split_first_chunk() {
         let sums = sums(block);
         take(&sums, &mut sums.open(block));
@@ -21,7 +23,7 @@ pub(super) fn each<T: Real>(
     if cells.len() < FEW {
         return cells;
     }
-    // The last block is filled up with what no kernel counts.
+    // The last block is padded with NaN, which no kernel counts: theorem (blocks), "Domain".
     let mut last = [T::nan(); BLOCK];
     last[..cells.len()].copy_from_slice(cells);
     let sums = sums(&last);

@@ -7,7 +7,7 @@ use crate::rounded::{limbs, round_limbs, shift_right};
 #[cfg(feature = "serde")]
 use core::cmp::Ordering;
 
-/// Limbs of 64 bits. The lowest bit is worth `2^-1074`, so the sum can reach `2^(64 * 18 - 1074) = 2^78`.
+/// The number of 64-bit limbs. The lowest bit is worth `2^-1074`, so the sum can reach `2^(64 * 18 - 1074) = 2^78`.
 const LIMBS: usize = 18;
 /// The weight of the lowest bit, as an exponent of two: the smallest positive `f64`.
 const LOWEST: i32 = -1074;
@@ -38,7 +38,7 @@ impl Default for ExactSum {
 }
 
 impl ExactSum {
-    /// The empty sum, 0.
+    /// Creates an empty sum, 0.
     pub const fn new() -> Self {
         Self { limbs: [0; LIMBS] }
     }
@@ -58,20 +58,25 @@ impl ExactSum {
     /// If `x` is NaN or outside `[0, 1]`, or if the sum would reach `2^78`; then the sum is lost.
     #[inline]
     pub fn add_many<T: Real>(&mut self, x: T, count: u64) {
+        // Beyond [0, 1] the theorem (exact sums) says nothing: the sum could reach 2^78.
         assert!(x >= T::zero() && x <= T::one(), "an exact sum takes numbers in [0, 1], not {x}");
         let (m, e) = x.parts();
+        // x = m 2^e in units of 2^LOWEST: the place is e - LOWEST, and the product of 53 and 64 bits fits in 128.
         self.add_at((e - LOWEST) as usize, u128::from(m) * u128::from(count));
     }
 
-    /// Adds a number, cut below the smallest positive `T`, `count` times.
+    /// Adds `value 2^exponent`, cut below the smallest positive `T`, `count` times.
+    ///
+    /// The cut loses less than one unit of the smallest number of `T`; all else is exact.
     #[inline]
     pub(crate) fn add_fixed<T: Real>(&mut self, Fixed { value, exponent }: Fixed, count: u64) {
+        // Only terms below the normal numbers are cut, so that the sum stays a multiple of the smallest number of T.
         let exponent_kept = exponent.max(T::MIN_EXPONENT);
         let (place, n) = ((exponent_kept - LOWEST) as usize, shift_right(value, exponent_kept - exponent));
         if count == 1 {
             return self.add_at(place, n);
         }
-        // 128 bits times 64, in halves.
+        // 128 bits times 64 in halves, the upper one 64 places higher: 192 bits, exactly.
         self.add_at(place, u128::from(n as u64) * u128::from(count));
         self.add_at(place + 64, (n >> 64) * u128::from(count));
     }
@@ -79,6 +84,7 @@ impl ExactSum {
     /// Adds `n` units of `2^(LOWEST + place)`.
     #[inline]
     fn add_at(&mut self, place: usize, n: u128) {
+        // A number of 128 bits at any bit of a limb touches three limbs; the carry goes on from there.
         let (limb, bit) = (place / 64, place % 64);
         self.carry_into(limb, &limbs::at_bit(n, bit));
     }
@@ -95,10 +101,11 @@ impl ExactSum {
     #[inline]
     fn carry_into(&mut self, at: usize, addend: &[u64]) {
         let carry = limbs::add(&mut self.limbs[at..], addend);
+        // Fewer than 2^64 terms of at most 1 stay below 2^78: sums.md, theorem (exact sums).
         assert!(!carry, "an exact sum stays below 2^78");
     }
 
-    /// How the sum compares with the integer `n`.
+    /// Compares the sum with the integer `n`.
     #[cfg(feature = "serde")]
     pub(super) fn compare(&self, n: u64) -> Ordering {
         let mut bound = Self::new();
@@ -106,7 +113,7 @@ impl ExactSum {
         limbs::compare(&self.limbs, &bound.limbs)
     }
 
-    /// Whether the sum is a multiple of `2^exponent`.
+    /// Returns whether the sum is a multiple of `2^exponent`.
     #[cfg(feature = "serde")]
     pub(super) fn is_multiple_of_power(&self, exponent: i32) -> bool {
         let bits = (exponent - LOWEST) as usize;
@@ -118,20 +125,21 @@ impl ExactSum {
         self.limbs.iter().enumerate().map(below).all(|low| low == 0)
     }
 
-    /// The sum, rounded once to nearest.
+    /// Returns the sum, rounded once to nearest.
     pub fn value<T: Real>(&self) -> T {
         self.mean(1)
     }
 
-    /// The sum over `count`, the exact quotient rounded once to nearest; 0 if `count` is 0.
+    /// Returns the sum divided by `count`: the exact quotient, rounded once to nearest; 0 if `count` is 0.
     pub fn mean<T: Real>(&self, count: u64) -> T {
         if count == 0 {
             return T::zero();
         }
-        // One more limb below, so that the quotient keeps 64 bits under the smallest subnormal.
+        // Scale 1074 becomes 1138: one more limb below, so that the quotient keeps 64 bits under the smallest subnormal.
         let mut quotient = [0; LIMBS + 1];
         quotient[1..].copy_from_slice(&self.limbs);
         let remainder = limbs::divide(&mut quotient, count);
+        // The remainder breaks ties: with the quotient it determines the nearest float, theorem (exact sums).
         round_limbs(&quotient, LOWEST - 64, remainder != 0)
     }
 }

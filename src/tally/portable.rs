@@ -4,7 +4,9 @@
 //! integers. Reading refuses counts that overflow, sums above 1 bit per cell, an entropy below that of the unknown
 //! cells, and sums that are no multiple of the smallest number of the format.
 
-use super::{ExactSum, Information, TOO_MANY, Tally};
+use super::exact_sum::ExactSum;
+use super::information_sum::InformationSum;
+use super::map_tally::{TOO_MANY, Tally};
 use crate::real::Real;
 use alloc::string::{String, ToString};
 use core::fmt::Write;
@@ -17,6 +19,7 @@ impl Serialize for ExactSum {
         for limb in self.limbs.iter().rev() {
             write!(digits, "{limb:016x}").expect("a string can be written to");
         }
+        // The highest limb first: one hexadecimal integer in units of 2^-1074.
         let digits = digits.trim_start_matches('0');
         serializer.serialize_str(if digits.is_empty() { "0" } else { digits })
     }
@@ -35,6 +38,7 @@ impl<'de> Deserialize<'de> for ExactSum {
                 "a sum is 1 to {allowed} hexadecimal digits, not {digits:?}"
             )));
         }
+        // From the last 16 digits on, the lowest limb first.
         for (limb, part) in sum.limbs.iter_mut().zip(digits.as_bytes().rchunks(16)) {
             *limb = part
                 .iter()
@@ -44,7 +48,7 @@ impl<'de> Deserialize<'de> for ExactSum {
     }
 }
 
-/// The fields of a tally, as they travel.
+/// The serialized fields of a tally.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct PortableTally {
@@ -56,10 +60,10 @@ struct PortableTally {
     occupied: u64,
 }
 
-/// Those of information.
+/// The serialized fields of a sum of information.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct PortableInformation {
+struct PortableInformationSum {
     format: String,
     information: ExactSum,
     unknown: u64,
@@ -80,9 +84,9 @@ impl<T: Real> Serialize for Tally<T> {
     }
 }
 
-impl<T: Real> Serialize for Information<T> {
+impl<T: Real> Serialize for InformationSum<T> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        PortableInformation {
+        PortableInformationSum {
             format: T::FORMAT.to_string(),
             information: self.sum.clone(),
             unknown: self.unknown,
@@ -99,6 +103,7 @@ impl<'de, T: Real> Deserialize<'de> for Tally<T> {
         require_format::<T, _>(&format)?;
         let observed = total(free, occupied)?;
         let cells = total(observed, unknown)?;
+        // A cell has at most 1 bit of either; an unknown one has an entropy of 1 bit (Eq. 1).
         if information.compare(observed).is_gt()
             || entropy.compare(cells).is_gt()
             || entropy.compare(unknown).is_lt()
@@ -112,10 +117,10 @@ impl<'de, T: Real> Deserialize<'de> for Tally<T> {
     }
 }
 
-impl<'de, T: Real> Deserialize<'de> for Information<T> {
+impl<'de, T: Real> Deserialize<'de> for InformationSum<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let PortableInformation { format, information, unknown, observed } =
-            PortableInformation::deserialize(deserializer)?;
+        let PortableInformationSum { format, information, unknown, observed } =
+            PortableInformationSum::deserialize(deserializer)?;
         require_format::<T, _>(&format)?;
         total(observed, unknown)?;
         if information.compare(observed).is_gt() {
@@ -126,6 +131,7 @@ impl<'de, T: Real> Deserialize<'de> for Information<T> {
     }
 }
 
+/// Refuses a tally of another format than `T`.
 fn require_format<T: Real, E: Error>(format: &str) -> Result<(), E> {
     if format == T::FORMAT {
         Ok(())
@@ -134,10 +140,12 @@ fn require_format<T: Real, E: Error>(format: &str) -> Result<(), E> {
     }
 }
 
+/// Adds two counts, or refuses them if the sum overflows.
 fn total<E: Error>(cells: u64, others: u64) -> Result<u64, E> {
     cells.checked_add(others).ok_or_else(|| E::custom(TOO_MANY))
 }
 
+/// Refuses a sum that is no multiple of the smallest number of `T`, since its terms are.
 fn require_sums_of<T: Real, E: Error>(sums: &[&ExactSum]) -> Result<(), E> {
     if sums.iter().all(|sum| sum.is_multiple_of_power(T::MIN_EXPONENT)) {
         Ok(())

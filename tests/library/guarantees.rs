@@ -5,7 +5,7 @@ use mean_information::quadrature::rigorous::Rigorous;
 use mean_information::room::{CartesianRoom, PolarRoom};
 use mean_information::scalar::Scalar;
 use mean_information::sensor::{GaussianSensor, InverseSensorModel};
-use mean_information::{ExactSum, Information, Tally, cell, elementary, expected, fusion, limit, map};
+use mean_information::{ExactSum, InformationSum, Tally, cell, elementary, expected, fusion, limit, map};
 use std::path::Path;
 
 type Particles<'a> = expected::Hypotheses<'a, map::encoding::LogOdds<f64>>;
@@ -50,8 +50,8 @@ pub(crate) fn guarantees() -> Vec<Guarantee> {
         Tally::<f64>::entropy => "Tally::entropy", 0.5, Proved;
         Tally::<f64>::information => "Tally::information", 0.5, Proved;
         Tally::<f64>::mean_information => "Tally::mean_information", 0.5, Proved;
-        Information::<f64>::total => "Information::total", 0.5, Proved;
-        Information::<f64>::mean => "Information::mean", 0.5, Proved;
+        InformationSum::<f64>::total => "InformationSum::total", 0.5, Proved;
+        InformationSum::<f64>::mean => "InformationSum::mean", 0.5, Proved;
         map::Grid::<map::encoding::Percent>::pooled => "Grid::pooled", 0.5, Proved;
         GaussianSensor::<f64>::occupancy => "GaussianSensor::occupancy", 0.5, Proved;
         GaussianSensor::<f64>::reach => "GaussianSensor::reach", 2.0, Proved;

@@ -4,7 +4,7 @@ use super::common::occupancy;
 use mean_information::cell::{Cell, information};
 use mean_information::map::encoding::{LogOdds, MrptLogOdds, Percent, Probability};
 use mean_information::map::{Encoding, Geometry, Grid, Histogram, PolarMap};
-use mean_information::{Error, Information, Real, Tally};
+use mean_information::{Error, InformationSum, Real, Tally};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -225,7 +225,7 @@ fn an_encoding_of_ones_own_is_counted_too() {
     assert_eq!(histogram.tally::<Costs>(), one_by_one);
     assert!(histogram.cells() == 9000 && one_by_one.cells() < 9000 && one_by_one.unknown() > 0);
     assert_ne!(histogram, Histogram::from_cells(&cells[1..]));
-    assert_eq!(histogram.information::<Costs>(), (&one_by_one).into());
+    assert_eq!(histogram.information_sum::<Costs>(), (&one_by_one).into());
 }
 
 /// One by one, many at once and in parts: the same histogram, and information and tally of all cells.
@@ -234,8 +234,8 @@ fn a_histogram_by_parts() {
     let cells: Vec<i8> = (0..70_000_i64).map(|k| (k * k / 300 % 102 - 1) as i8).collect();
     let all = Histogram::from_cells(&cells);
     assert_eq!(all.tally::<Percent>(), cells.iter().filter_map(|&cell| Percent::cell(cell)).collect());
-    assert_eq!(all.information::<Percent>(), (&all.tally::<Percent>()).into());
-    assert_ne!(all.information::<Percent>(), all.information::<MrptLogOdds>());
+    assert_eq!(all.information_sum::<Percent>(), (&all.tally::<Percent>()).into());
+    assert_ne!(all.information_sum::<Percent>(), all.information_sum::<MrptLogOdds>());
     for piece in [7, 300, 5000] {
         let parts = cells.chunks(piece).map(Histogram::from_cells);
         let sum: Histogram = parts.sum();
@@ -266,7 +266,7 @@ fn information_is_that_of_the_tally_in_every_encoding() {
         let one_by_one: Tally<E::Float> = cells.iter().filter_map(|&stored| E::cell(stored)).collect();
         assert_eq!(one_by_one.cells(), cells.len() as u64);
         assert_eq!(E::tally(cells), one_by_one);
-        assert_eq!(E::information(cells), Information::from(&one_by_one));
+        assert_eq!(E::information_sum(cells), InformationSum::from(&one_by_one));
         assert!(one_by_one.observed() > 0);
     }
     check::<Probability<f64>>(&[0.125, 0.5, 0.75, 1.0]);

@@ -2,7 +2,7 @@
 
 use super::common::{cell, mirrorable, occupancy, power};
 use mean_information::cell::{Cell, entropy, information};
-use mean_information::{ExactSum, Information, Tally};
+use mean_information::{ExactSum, InformationSum, Tally};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -32,15 +32,15 @@ proptest! {
         let one_by_one: Tally<f64> = map.iter().flat_map(|&p| Cell::from_occupancy(p)).collect();
         prop_assert_eq!(&Tally::from_occupancies(&map), &one_by_one);
         let (left, right) = map.split_at(cut.min(map.len()));
-        let mut information = Information::from_occupancies(right);
-        information.merge(&Information::from_occupancies(left));
-        prop_assert_eq!(&information, &Information::from(&one_by_one));
+        let mut information = InformationSum::from_occupancies(right);
+        information.merge(&InformationSum::from_occupancies(left));
+        prop_assert_eq!(&information, &InformationSum::from(&one_by_one));
         prop_assert_eq!(information.mean().to_bits(), one_by_one.mean_information().to_bits());
         prop_assert_eq!(information.total().to_bits(), one_by_one.information().to_bits());
         let singles: Vec<f32> = map.iter().map(|&p| p as f32).collect();
         let one_by_one: Tally<f32> = singles.iter().flat_map(|&p| Cell::from_occupancy(p)).collect();
         prop_assert_eq!(&Tally::from_occupancies(&singles), &one_by_one);
-        prop_assert_eq!(Information::from_occupancies(&singles), Information::from(&one_by_one));
+        prop_assert_eq!(InformationSum::from_occupancies(&singles), InformationSum::from(&one_by_one));
     }
 }
 
@@ -98,11 +98,11 @@ proptest! {
     #[test]
     fn parts_add_up_whether_they_are_kept_or_not(map in vec(occupancy(), 0..200), part in 1_usize..70) {
         let parts: Vec<_> = map.chunks(part).map(tally).collect();
-        let informations: Vec<_> = parts.iter().map(Information::from).collect();
+        let informations: Vec<_> = parts.iter().map(InformationSum::from).collect();
         let whole = tally(&map);
         prop_assert_eq!(&parts.iter().sum::<Tally<f64>>(), &whole);
-        prop_assert_eq!(&informations.iter().sum::<Information<f64>>(), &Information::from(&whole));
-        prop_assert_eq!(&informations.into_iter().sum::<Information<f64>>(), &Information::from(&whole));
+        prop_assert_eq!(&informations.iter().sum::<InformationSum<f64>>(), &InformationSum::from(&whole));
+        prop_assert_eq!(&informations.into_iter().sum::<InformationSum<f64>>(), &InformationSum::from(&whole));
         prop_assert_eq!(parts.into_iter().sum::<Tally<f64>>(), whole);
     }
 
@@ -203,14 +203,14 @@ fn the_smallest_terms_are_kept() {
 fn information_and_tally_count_alike() {
     let cells = [0.125_f64, 0.5, 0.8125, 0.5, 1.0, 0.0, 0.5].map(|p| Cell::from_occupancy(p).unwrap());
     let tally: Tally<f64> = cells.into_iter().collect();
-    let information: Information<f64> = cells.into_iter().collect();
-    assert_eq!(information, Information::from(&tally));
+    let information: InformationSum<f64> = cells.into_iter().collect();
+    assert_eq!(information, InformationSum::from(&tally));
     assert_eq!((information.unknown(), information.observed(), information.cells()), (3, 4, 7));
     assert_eq!(information.total(), tally.information());
     let parts = || cells.chunks(3).map(|part| part.iter().copied());
     assert_eq!(parts().map(Tally::from_iter).sum::<Tally<_>>(), tally);
-    assert_eq!(parts().map(Information::from_iter).sum::<Information<_>>(), information);
-    let mut many = Information::new();
+    assert_eq!(parts().map(InformationSum::from_iter).sum::<InformationSum<_>>(), information);
+    let mut many = InformationSum::new();
     for cell in cells {
         many.add_many(cell, 5);
     }
@@ -220,7 +220,7 @@ fn information_and_tally_count_alike() {
 #[test]
 #[should_panic(expected = "at most 2^64 - 1 cells")]
 fn information_of_more_cells_than_can_be_counted_panics_as_documented() {
-    let mut information = Information::<f64>::new();
+    let mut information = InformationSum::<f64>::new();
     information.add_many(Cell::unknown(), u64::MAX);
     information.add(Cell::from_occupancy(0.25).unwrap());
 }

@@ -152,7 +152,7 @@ fn home(name: &str) -> &str {
     match name {
         "Error" => "error",
         "Real" => "real",
-        "Tally" | "Information" | "ExactSum" => "tally",
+        "Tally" | "InformationSum" | "ExactSum" => "tally",
         "Failure" => "failure",
         module => module,
     }

@@ -25,7 +25,7 @@ const RESULTS: [&str; 13] = [
     "Float",
     "Self",
     "Tally",
-    "Information",
+    "InformationSum",
     "Interval",
     "Grid",
     "PolarMap",
@@ -33,6 +33,27 @@ const RESULTS: [&str; 13] = [
     "Enclosure",
     "ExpectedMap",
 ];
+
+/// Where every public item is described by a sentence that a reader can search for: folders and files.
+const BEGUN_WELL: [&str; 15] = [
+    "src/book",
+    "src/error.rs",
+    "src/expected",
+    "src/fusion.rs",
+    "src/interval",
+    "src/lib.rs",
+    "src/limit/bounds.rs",
+    "src/limit/closed_form.rs",
+    "src/limit/repeated.rs",
+    "src/limit/weight.rs",
+    "src/map",
+    "src/operations",
+    "src/room",
+    "src/sensor.rs",
+    "src/tally",
+];
+/// Words that end as a verb does and leave open who does what.
+const RIDDLES: [&str; 8] = ["As", "Does", "Has", "Is", "Its", "This", "Thus", "Was"];
 
 /// A public function, or one of a public trait.
 struct Function {
@@ -149,6 +170,75 @@ fn implemented(line: &str) -> &str {
 /// Every public function of the library.
 fn all() -> Vec<Function> {
     sources("src").iter().flat_map(|file| functions(file.to_str().unwrap(), &read(file))).collect()
+}
+
+/// The public items of a file with the first lines of their docstrings: place, whether it is a function, the line. Those
+/// of a public trait, of a public enum and of the implementation of a trait are public with it.
+fn openings<'a>(file: &str, text: &'a str) -> Vec<(String, bool, &'a str)> {
+    let lines: Vec<_> = text.lines().collect();
+    let (mut inherited, mut found) = (false, Vec::new());
+    for (at, line) in lines.iter().enumerate() {
+        if !line.starts_with([' ', '/', '#']) {
+            let is_impl = line.starts_with("impl") && line.contains(" for ");
+            inherited = is_impl || ["pub trait ", "pub enum "].iter().any(|kind| line.starts_with(kind));
+        }
+        let is_doc = |line: &str| line.trim_start().starts_with("///");
+        let Some(opening) = line.trim_start().strip_prefix("/// ") else { continue };
+        if at > 0 && is_doc(lines[at - 1]) {
+            continue;
+        }
+        let below = lines[at..].iter().map(|line| line.trim_start());
+        let Some(item) = below.into_iter().find(|line| !line.starts_with(['/', '#'])) else { continue };
+        let public = item.strip_prefix("pub ");
+        if public.is_some() || inherited && line.starts_with(' ') {
+            let item = public.unwrap_or(item).trim_start_matches("const ").trim_start_matches("unsafe ");
+            found.push((format!("{file}:{}", at + 1), item.starts_with("fn "), opening));
+        }
+    }
+    found
+}
+
+/// Whether a sentence begins with a verb in the third person and has an object: "Creates an empty histogram."
+fn begins_with_a_verb(sentence: &str) -> bool {
+    let mut words = sentence.split(' ');
+    let (verb, next) = (words.next().unwrap(), words.next().unwrap_or("of"));
+    let is_word = verb.starts_with(|c: char| c.is_ascii_uppercase()) && verb.chars().all(char::is_alphabetic);
+    is_word && verb.ends_with('s') && !RIDDLES.contains(&verb) && !["of", "that", "along"].contains(&next)
+}
+
+/// A function does something: "Returns the side of a cell." Anything else is something: "The side of a cell."
+#[test]
+fn a_docstring_begins_with_a_verb_or_an_article() {
+    let begun_well = |file: &String| BEGUN_WELL.iter().any(|part| file.starts_with(part));
+    let files = ["src", "crates"].into_iter().flat_map(sources).map(|file| file.to_str().unwrap().to_owned());
+    let (mut count, mut faults) = (0, Vec::new());
+    for file in files.filter(begun_well) {
+        for (place, is_function, opening) in openings(&file, &read(&file)) {
+            count += 1;
+            let is_thing = ["The ", "A ", "An "].iter().any(|article| opening.starts_with(article));
+            if !begins_with_a_verb(opening) && (is_function || !is_thing) {
+                faults.push(format!("{place}: {opening}"));
+            }
+        }
+    }
+    assert!(count > 200, "{count}");
+    assert!(faults.is_empty(), "{} of {count}:\n{}", faults.len(), faults.join("\n"));
+}
+
+#[test]
+fn a_riddle_is_no_sentence() {
+    let verbs =
+        ["Creates an empty histogram.", "Returns whether both ends are finite.", "Adds `count` equal cells."];
+    assert!(verbs.into_iter().all(begins_with_a_verb));
+    let riddles = [
+        "That of no cells.",
+        "Does it.",
+        "Columns.",
+        "Its name.",
+        "As many as there are.",
+        "Cells along a beam.",
+    ];
+    assert!(!riddles.into_iter().any(begins_with_a_verb));
 }
 
 #[test]

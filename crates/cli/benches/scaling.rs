@@ -50,8 +50,8 @@ fn measure<E: Encoding>(
     let sizes = (3..DECADES).flat_map(|n| [1, 3].map(|m| m * 10_usize.pow(n))).chain([cells.len()]);
     let by_cells = sizes.map(|count| {
         let cells = &cells[..count];
-        assert_eq!(E::information(cells).mean(), E::tally(cells).mean_information());
-        let seconds = timing::least_time(1.0, || E::information(black_box(cells)).mean());
+        assert_eq!(E::information_sum(cells).mean(), E::tally(cells).mean_information());
+        let seconds = timing::least_time(1.0, || E::information_sum(black_box(cells)).mean());
         (count as f64, seconds / count as f64 * 1e9)
     });
     let shared = &cells[..SHARED_BYTES / size_of::<E::Stored>()];

@@ -33,7 +33,7 @@ fn a_circle_holds_no_more_points_than_the_bound() {
         let held = points(0.0, 0.0, radius - 1e-9..=radius + 1e-9);
         assert_eq!(held, expected);
         // In cells of 3 m, a room whose p is 1/2 on this circle.
-        let sensor = GaussianSensor::new(3.0 * (radius + 2.5 * B[0]), 7.5).unwrap();
+        let sensor = GaussianSensor::new(3.0 * (radius + 2.5 * EDGE[0]), 7.5).unwrap();
         let room = Room::new(&sensor, 3.0, Weight::Area).unwrap();
         assert!(held <= room.cells_at_one_half(Up(0.0)).0);
     }
@@ -62,14 +62,14 @@ fn the_steepest_information_and_its_bend() {
 
 #[test]
 fn the_constants_lie_where_they_say() {
-    assert_eq!([B[0].next_up(), PI[0].next_up()], [B[1], PI[1]]);
-    // e^(-b^2 / 2) = 1/2: at B the exponents lie on either side of ln 2.
+    assert_eq!([EDGE[0].next_up(), PI[0].next_up()], [EDGE[1], PI[1]]);
+    // e^(-b^2 / 2) = 1/2: at EDGE the exponents lie on either side of ln 2.
     let square = |x: f64| {
         let (m, e) = x.parts();
         (u128::from(m) * u128::from(m), 2 * e)
     };
     // 2 ln 2 at scale 104.
-    let (below, above) = (square(B[0]), square(B[1]));
+    let (below, above) = (square(EDGE[0]), square(EDGE[1]));
     assert_eq!([below.1, above.1], [-104; 2]);
     let twice_ln_2 = 28_117_390_063_466_226_355_784_433_217_543_u128;
     assert!(below.0 < twice_ln_2 && twice_ln_2 < above.0);
@@ -91,7 +91,7 @@ fn rooms<T: Real>() -> Vec<(GaussianSensor<T>, T)> {
     let sensor = |alpha| GaussianSensor::new(T::nearest(3.0 * alpha), T::nearest(3.0)).expect("positive");
     let cells = [1.7, 4.9, 5.0, 12.3, 217.0, 1e4, 3e6, 1e8];
     let rooms = [0.4, 1.1, 1.3, 9.0, 3e3]
-        .map(|alpha| cells.map(|x| (sensor(alpha), T::nearest(3.0 * (alpha + B[0]) / x))));
+        .map(|alpha| cells.map(|x| (sensor(alpha), T::nearest(3.0 * (alpha + EDGE[0]) / x))));
     rooms.concat()
 }
 
@@ -108,10 +108,10 @@ struct Plain {
 impl Plain {
     fn new<T: Real>(sensor: &GaussianSensor<T>, h: T, weight: Weight) -> Self {
         let (z, sigma, unit) = (sensor.range().widen(), sensor.sigma().widen(), T::epsilon().widen() / 2.0);
-        let x = (z + sigma * B[0]) / h.widen();
+        let x = (z + sigma * EDGE[0]) / h.widen();
         let free = information(sensor.occupancy(T::zero())).widen();
         let rounding = f64::from(T::PRECISION + 5) / 2.0 * unit;
-        let variation = 2.0 + if z > sigma * B[0] { free } else { -free } + rounding;
+        let variation = 2.0 + if z > sigma * EDGE[0] { free } else { -free } + rounding;
         let limit = closed_form(sensor, weight).widen() * (1.0 + 2.0 * unit);
         Self {
             x,
@@ -201,7 +201,7 @@ fn the_circle_at_one_half() {
     for (sensor, h) in rooms::<f32>() {
         let room = Room::new(&sensor, h, Weight::Area).expect("positive");
         let wide = room.shift().0;
-        let circle = (sensor.range().widen() - sensor.sigma().widen() * B[0]) / h.widen();
+        let circle = (sensor.range().widen() - sensor.sigma().widen() * EDGE[0]) / h.widen();
         let [near, far] = room.ring();
         // The difference above rounds.
         let slack = 1e-15 * room.radius().0;

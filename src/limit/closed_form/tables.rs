@@ -1,9 +1,10 @@
 //! The polynomials of the closed form. Written by `proofs/limit_tables.py`; do not edit.
 
-use super::Panel;
+/// The polynomial of a limit on one panel: its constant, scale 120, and the coefficients of `y`, `y^2`, ..., scale 67.
+pub(super) type Polynomial = (u128, &'static [i64]);
 
 /// The panels of the limit with weight radial, in the order of `locate`.
-pub(super) static RADIAL: [Panel; 233] = [
+pub(super) static RADIAL: [Polynomial; 233] = [
     (566014317043423928470024923071409564, &[4289520423560, -217151]),
     (566014338776491213388052851051761124, &[536190022408, -3393]),
     (566014343606061553060369174907099987, &[536190015622, -3393]),
@@ -374,7 +375,7 @@ pub(super) static RADIAL: [Panel; 233] = [
 ];
 
 /// The panels of the limit with weight area, in the order of `locate`.
-pub(super) static AREA: [Panel; 233] = [
+pub(super) static AREA: [Polynomial; 233] = [
     (306835906061591733789567386047816425, &[2913341619049, -4075]),
     (306835920822181480870382986863101954, &[364167701808, -64]),
     (306835924102312532623108548957898595, &[364167701681, -64]),

@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use serde_json::Value;
 use std::{env, format, fs};
 
-const WEIGHTS: [(Weight, &str, &[Panel; PANELS]); 2] =
+const WEIGHTS: [(Weight, &str, &[Polynomial; PANELS]); 2] =
     [(Weight::Radial, "radial", &tables::RADIAL), (Weight::Area, "area", &tables::AREA)];
 
 /// What `proofs/limit_certify.py` prints of the tables that it proves. If they change, run it, and record it in RESULTS.md.

@@ -1,53 +1,54 @@
-//! What Eq. 4 needs and no more: the information of a map and the number of its observed cells.
+//! The information of a map and the number of its observed cells: the part of a tally that Eq. 4 needs.
 
 #[cfg(feature = "std")]
 use super::blocks;
-use super::{ExactSum, TOO_MANY, Tally};
+use super::exact_sum::ExactSum;
+use super::map_tally::{TOO_MANY, Tally};
 use crate::cell::{self, Cell, State};
 use crate::real::Real;
 #[cfg(feature = "std")]
 use crate::rounded::lanes;
 use core::marker::PhantomData;
 
-/// The sum of the information of a map, and how many of its cells are observed and unknown: the half of a [`Tally`]
-/// that the mean information needs. Occupancies without their entropies are summed up faster.
+/// The sum of the information of a map (Eq. 3), with the numbers of observed and unknown cells: the half of a [`Tally`]
+/// that the mean information needs (Eq. 4). It is faster than a tally, because no entropies are computed.
 ///
-/// Adding cells in any order, or merging parts in any tree, gives the same bits as a tally does.
+/// Adding cells in any order, or merging parts in any tree, gives the bits of the tally.
 ///
 /// ```
-/// use mean_information::{Information, Tally};
+/// use mean_information::{InformationSum, Tally};
 /// let cells = [0.25, 0.5, 0.96875];
-/// let mut information = Information::from_occupancies(&cells[..2]);
-/// information.merge(&Information::from_occupancies(&cells[2..]));
+/// let mut information = InformationSum::from_occupancies(&cells[..2]);
+/// information.merge(&InformationSum::from_occupancies(&cells[2..]));
 /// assert_eq!((information.observed(), information.unknown()), (2, 1));
 /// assert_eq!(information.total(), 0.9880995512281525); // bits
 /// assert_eq!(information.mean(), 0.49404977561407626); // bits per observed cell
 /// assert_eq!(information.mean(), Tally::from_occupancies(&cells).mean_information());
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct Information<T> {
+pub struct InformationSum<T> {
     pub(super) sum: ExactSum,
     pub(super) unknown: u64,
     pub(super) observed: u64,
     pub(super) format: PhantomData<T>,
 }
 
-/// Sum and counts are integers; `derive` would ask `T: Eq`.
-impl<T: Real> Eq for Information<T> {}
+/// Equality of sum and counts, which are integers; `derive` would ask for `T: Eq`.
+impl<T: Real> Eq for InformationSum<T> {}
 
-impl<T: Real> Default for Information<T> {
+impl<T: Real> Default for InformationSum<T> {
     fn default() -> Self {
         Self::new()
     }
 }
 
-impl<T: Real> Information<T> {
-    /// That of no cells.
+impl<T: Real> InformationSum<T> {
+    /// Creates an empty sum.
     pub const fn new() -> Self {
         Self { sum: ExactSum::new(), unknown: 0, observed: 0, format: PhantomData }
     }
 
-    /// Counts one cell.
+    /// Adds one cell.
     ///
     /// # Panics
     /// If there would be more than `2^64 - 1` cells.
@@ -55,17 +56,19 @@ impl<T: Real> Information<T> {
         self.add_many(cell, 1);
     }
 
-    /// Counts `count` equal cells, with the same result as `count` calls of [`Information::add`].
+    /// Adds `count` equal cells, with the same result as `count` calls of [`InformationSum::add`].
     ///
     /// # Panics
     /// If there would be more than `2^64 - 1` cells.
     pub fn add_many(&mut self, cell: Cell<T>, count: u64) {
         let [unknown, observed] = if cell.state() == State::Unknown { [count, 0] } else { [0, count] };
         self.count(unknown, observed);
+        // The value is correctly rounded; from here on nothing rounds: sums.md, theorem (exact sums).
         self.sum.add_many(cell.information(), count);
     }
 
-    /// Of cells by their occupancies; what is no probability is passed over, as in [`Tally::from_occupancies`].
+    /// Creates the sum of cells from their occupancies, skipping values that are not probabilities, as
+    /// [`Tally::from_occupancies`] does.
     ///
     /// The sum is that of the correctly rounded information of the cells, exactly (proved,
     /// [`sums`](crate::book::sums)).
@@ -73,18 +76,22 @@ impl<T: Real> Information<T> {
         let mut sums = Self::new();
         #[cfg(feature = "std")]
         let cells = blocks::each(cells, lanes::information, |block, left| {
+            // The integers of a block are its cells' sums, bit for bit: sums.md, theorem (blocks). The kernel for
+            // information alone counts every observed cell as free.
             sums.sum.add_fixed::<T>(block.information, 1);
             sums.unknown += block.unknown;
             sums.observed += block.free;
+            // Where the error bound does not decide the rounding, the single cell does.
             left.for_each(|p| sums.add_occupancy(p));
         });
+        // The cells after the last block, or all of them without vector kernels.
         for &p in cells {
             sums.add_occupancy(p);
         }
         sums
     }
 
-    /// Without the entropy, which a [`Cell`] has.
+    /// Adds a cell from its occupancy, without the entropy that a [`Cell`] computes.
     fn add_occupancy(&mut self, p: T) {
         if p == T::HALF {
             self.unknown += 1;
@@ -94,7 +101,7 @@ impl<T: Real> Information<T> {
         }
     }
 
-    /// Counts the cells of another part of the map.
+    /// Adds the cells of another part of the map.
     ///
     /// # Panics
     /// If there would be more than `2^64 - 1` cells.
@@ -103,6 +110,7 @@ impl<T: Real> Information<T> {
         self.sum.merge(&other.sum);
     }
 
+    /// Adds to the counts, not to the sum.
     fn count(&mut self, unknown: u64, observed: u64) {
         let more = unknown + observed;
         assert!(self.cells().checked_add(more).is_some(), "{TOO_MANY}");
@@ -110,35 +118,37 @@ impl<T: Real> Information<T> {
         self.observed += observed;
     }
 
-    /// `I(m)`, Eq. 3, in bits: the exact sum of the correctly rounded information of the cells, rounded once to
+    /// Returns `I(m)`, Eq. 3, in bits: the exact sum of the correctly rounded information of the cells, rounded once to
     /// nearest.
     pub fn total(&self) -> T {
+        // One rounding, of the exact sum.
         self.sum.value()
     }
 
-    /// `I(m) / N_obs`, Eq. 4, in bits per observed cell: the exact quotient of that sum, rounded once to nearest; 0 if
-    /// nothing is observed. The bits of [`Tally::mean_information`].
+    /// Returns the mean information `I(m) / N_obs`, Eq. 4, in bits per observed cell: the exact quotient of that sum,
+    /// rounded once to nearest; 0 if no cell is observed. It has the bits of [`Tally::mean_information`].
     pub fn mean(&self) -> T {
+        // One rounding, of the exact quotient: sums.md, theorem (exact sums).
         self.sum.mean(self.observed)
     }
 
-    /// `N_obs`, Eq. 4: the number of cells with `p != 1/2`.
+    /// Returns `N_obs`, Eq. 4: the number of cells with `p != 1/2`.
     pub fn observed(&self) -> u64 {
         self.observed
     }
 
-    /// The number of cells with `p = 1/2`.
+    /// Returns the number of cells with `p = 1/2`.
     pub fn unknown(&self) -> u64 {
         self.unknown
     }
 
-    /// The number of all cells.
+    /// Returns the number of all cells.
     pub fn cells(&self) -> u64 {
         self.unknown + self.observed
     }
 }
 
-impl<T: Real> From<&Tally<T>> for Information<T> {
+impl<T: Real> From<&Tally<T>> for InformationSum<T> {
     fn from(tally: &Tally<T>) -> Self {
         Self {
             sum: tally.information.clone(),

@@ -1,0 +1,65 @@
+//! The values that an operation takes, and its answers.
+
+use super::operation::Shape;
+use crate::error::Error;
+use alloc::vec::Vec;
+use core::fmt;
+
+/// The value of an argument.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value<T> {
+    /// A float.
+    Float(T),
+    /// A list of floats.
+    List(Vec<T>),
+    /// A list of lists of floats.
+    Rows(Vec<Vec<T>>),
+}
+
+impl<T> Value<T> {
+    /// Returns the shape of the value.
+    pub fn shape(&self) -> Shape {
+        match self {
+            Self::Float(_) => Shape::Float,
+            Self::List(_) => Shape::List,
+            Self::Rows(_) => Shape::Rows,
+        }
+    }
+}
+
+/// The result of an operation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Answer<T> {
+    /// A float.
+    Float(T),
+    /// A number of cells.
+    Count(u64),
+}
+
+/// The reason why there is no result.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Refusal {
+    /// An argument outside the domain: the protocol's error `domain`.
+    Domain(Error),
+    /// A result that this crate does not compute, such as that of a grid of too many cells: the protocol's `skipped`.
+    TooLarge(Error),
+    /// A wrong number or shape of arguments.
+    Arguments,
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Domain(error) | Self::TooLarge(error) => error.fmt(f),
+            Self::Arguments => f.write_str("not the arguments of this operation"),
+        }
+    }
+}
+
+impl core::error::Error for Refusal {}
+
+impl From<Error> for Refusal {
+    fn from(error: Error) -> Self {
+        Self::Domain(error)
+    }
+}

@@ -4,11 +4,11 @@
 
 use crate::real::Real;
 
-/// How a computation ended.
+/// The way in which a computation ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Status<T> {
-    /// Within the tolerance asked for.
+    /// The error or the width is within the tolerance that was asked for.
     Converged,
     /// The limit on evaluations came first. The result holds, with the error or the width it states.
     EvaluationLimit,
@@ -16,22 +16,22 @@ pub enum Status<T> {
     RoundOff,
     /// The integrand is singular, or too narrow to be resolved by floats, between `lower` and `upper`.
     Unresolved {
-        /// Where the stretch begins.
+        /// The lower end of the stretch.
         lower: T,
-        /// Where it ends.
+        /// The upper end of the stretch.
         upper: T,
     },
     /// The integrand was NaN or infinite between `lower` and `upper`: the result means nothing there.
     NotFinite {
-        /// Where the stretch begins.
+        /// The lower end of the stretch.
         lower: T,
-        /// Where it ends.
+        /// The upper end of the stretch.
         upper: T,
     },
 }
 
 impl Status<f64> {
-    /// The same with the nearest floats of another format.
+    /// Returns the same status with the nearest floats of another format.
     pub(crate) fn nearest<T: Real>(self) -> Status<T> {
         match self {
             Self::Converged => Status::Converged,
@@ -54,9 +54,9 @@ pub struct Estimate<T> {
     pub value: T,
     /// The estimated bound on `|value - truth|`; not negative.
     pub error: T,
-    /// How the computation ended.
+    /// The way in which the computation ended.
     pub status: Status<T>,
-    /// How many times the integrand was evaluated.
+    /// The number of evaluations of the integrand.
     pub evaluations: u64,
 }
 
@@ -67,14 +67,14 @@ pub struct Enclosure<T> {
     pub lower: T,
     /// Not below the true value.
     pub upper: T,
-    /// How the computation ended.
+    /// The way in which the computation ended.
     pub status: Status<T>,
-    /// How many times the integrand was evaluated, at a point or over an interval.
+    /// The number of evaluations of the integrand, at a point or over an interval.
     pub evaluations: u64,
 }
 
 impl<T: Real> Enclosure<T> {
-    /// Whether `x` lies between the ends.
+    /// Returns true if `x` lies between the ends.
     ///
     /// ```
     /// use mean_information::estimate::{Enclosure, Status};
@@ -85,7 +85,7 @@ impl<T: Real> Enclosure<T> {
         self.lower <= x && x <= self.upper
     }
 
-    /// `upper - lower`, rounded to nearest.
+    /// Returns `upper - lower`, rounded to nearest.
     ///
     /// ```
     /// use mean_information::estimate::{Enclosure, Status};

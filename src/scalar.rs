@@ -1,7 +1,8 @@
-//! What an integrand is written in: [`Scalar`], for which floats, intervals and rectangles of the complex plane can stand.
+//! The numbers that an integrand is written in: [`Scalar`], for which floats, intervals and rectangles of the complex
+//! plane can stand.
 //!
-//! A formula written once, generic over `Scalar`, gives values at floats, ranges over intervals, and, over rectangles, a bound on
-//! its magnitude where it is analytic.
+//! A formula written once, generic over `Scalar`, gives values at floats, ranges over intervals, and, over rectangles,
+//! a bound on its magnitude where it is analytic.
 
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};
@@ -12,7 +13,8 @@ use crate::real::Real;
 
 /// A number that formulas can be evaluated in: a float, an interval, or a rectangle of complex numbers.
 ///
-/// **Error**: floats have each function correctly rounded, but for the two within 2 ulp; intervals and rectangles contain
+/// **Error**: floats have each function correctly rounded, except `exp_m1` and
+/// `entropy_from_log_occupancy` (within 2 ulp); intervals and rectangles contain
 /// the exact results (proved, [`rounding`](crate::book::rounding), [`quadrature`](crate::book::quadrature),
 /// [`integration`](crate::book::integration)). Floats are NaN outside the domain.
 ///
@@ -35,36 +37,37 @@ pub trait Scalar:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
-    /// The number `x`: exactly, or the nearest float where the scalar is one of fewer bits.
+    /// Returns the number `x`: exactly, or the nearest float where the scalar is one of fewer bits.
     fn constant(x: f64) -> Self;
 
-    /// `ln 2`: the nearest float, or an enclosure.
+    /// Returns `ln 2`: the nearest float, or an enclosure.
     fn ln_2() -> Self;
 
-    /// `e^x`: of floats correctly rounded.
+    /// Returns `e^x`: of floats correctly rounded.
     #[must_use]
     fn exp(self) -> Self;
 
-    /// `e^x - 1`; floats keep their digits next to 0, within 2 ulp.
+    /// Returns `e^x - 1`; floats keep their digits next to 0, within 2 ulp.
     #[must_use]
     fn exp_m1(self) -> Self {
         -(Self::constant(1.0) - self.exp())
     }
 
-    /// The natural logarithm: of floats correctly rounded.
+    /// Returns the natural logarithm: of floats correctly rounded.
     #[must_use]
     fn ln(self) -> Self;
 
-    /// The square root: of floats correctly rounded.
+    /// Returns the square root: of floats correctly rounded.
     #[must_use]
     fn sqrt(self) -> Self;
 
-    /// Eq. 1: the Bernoulli entropy in bits, `-(p ln p + (1 - p) ln(1 - p)) / ln 2` for `p` in `[0, 1]`: of floats
-    /// correctly rounded.
+    /// Returns the Bernoulli entropy in bits (Eq. 1), `-(p ln p + (1 - p) ln(1 - p)) / ln 2` for `p` in `[0, 1]`: of
+    /// floats correctly rounded.
     #[must_use]
     fn entropy(self) -> Self;
 
-    /// The Bernoulli entropy in bits at occupancy `e^l`, `l <= 0`; floats keep their digits where it is next to 1, within 2 ulp.
+    /// Returns the Bernoulli entropy in bits at occupancy `e^l`, `l <= 0`; floats keep their digits where it is next to
+    /// 1, within 2 ulp.
     ///
     /// ```
     /// use mean_information::scalar::Scalar;
@@ -76,7 +79,7 @@ pub trait Scalar:
         self.exp().entropy()
     }
 
-    /// The Bernoulli entropy in bits at log-odds `l = ln(p / (1 - p))`: of floats correctly rounded.
+    /// Returns the Bernoulli entropy in bits at log-odds `l = ln(p / (1 - p))`: of floats correctly rounded.
     #[must_use]
     fn entropy_from_log_odds(self) -> Self;
 }
@@ -95,11 +98,12 @@ pub trait Scalar:
 /// assert_eq!(Decay { rate: 3.0 }.evaluate(0.5_f64), 0.22313016014842982);
 /// ```
 pub trait Integrand {
-    /// The value at `x`, as exact as `S` computes it ([`integration`](crate::book::integration)).
+    /// Returns the value at `x`, as exact as `S` computes it ([`integration`](crate::book::integration)).
     fn evaluate<S: Scalar>(&self, x: S) -> S;
 }
 
-/// Floats: NaN outside the domain; each operation and function correctly rounded, but for the two within 2 ulp.
+/// Floats: NaN outside the domain; each operation and function correctly rounded, except `exp_m1` and
+/// `entropy_from_log_occupancy` (within 2 ulp).
 impl<T: Real> Scalar for T {
     fn constant(x: f64) -> Self {
         T::nearest(x)

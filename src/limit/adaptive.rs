@@ -12,17 +12,18 @@ use crate::scalar::{Integrand, Scalar};
 use num_traits::float::FloatCore;
 use num_traits::{One, Zero};
 
-/// The limit of the mean information (bits per cell) as cells shrink, Eq. 6, by adaptive quadrature.
+/// Estimates the limit of the mean information (bits per cell) as cells shrink, Eq. 6, by adaptive quadrature.
 ///
-/// The tolerances of `quadrature` are those of the deficit `1 - Ī`, its evaluation limit that of all integrals together. What is
-/// integrated is the entropy in the local coordinate `t` of each piece, with panels that shrink towards its start; so a peak of any
-/// relative width is seen. A piece whose range, an interval, shows that it matters less than the tolerance is left at that.
+/// The tolerances of `quadrature` are those of the deficit `1 - Ī`, its evaluation limit that of all integrals
+/// together. What is integrated is the entropy in the local coordinate `t` of each piece, with panels that shrink
+/// towards its start; so a peak of any relative width is seen. A piece whose range, an interval, shows that it matters
+/// less than the tolerance is left at that.
 ///
 /// **Error**: [`Estimate::error`], an estimate: the sum of those of the pieces ([`GaussKronrod`]), and the rounding of the last steps.
 /// Measured: never below the true error in 10 000 random rooms, both weights and formats.
 ///
-/// A room takes at most 511 evaluations at a relative tolerance of `1e-12` in `f64`, by any rule and for any `z / σ` from `1e-6` to
-/// `1e9` (measured: [`quadrature`](crate::book::quadrature)).
+/// A room takes at most 511 evaluations at a relative tolerance of `1e-12` in `f64`, by any rule and for any `z / σ`
+/// from `1e-6` to `1e9` (measured: [`quadrature`](crate::book::quadrature)).
 ///
 /// Special case: 0, exactly, for a model that observes nothing.
 ///
@@ -68,7 +69,9 @@ pub fn adaptive<M: RadialModel>(
     }
     for (index, piece) in pieces.iter().enumerate() {
         let deficit = Deficit { model, weight, piece: index, mirrored: piece.mirrored };
-        let tolerance = (quadrature.absolute * whole).max(quadrature.relative * sum.value);
+        // Of the deficit times the extent: the relative tolerance counts what the pieces before have found.
+        let tolerance =
+            (quadrature.tolerance.absolute * whole).max(quadrature.tolerance.relative * sum.value);
         // Half of what the pieces before have left of it.
         let allowed = (tolerance - sum.error).max(tolerance * ratio()) * M::Float::HALF;
         let most = most(&deficit, piece);
@@ -95,7 +98,7 @@ pub fn adaptive<M: RadialModel>(
     Ok(Estimate { value, error: sum.error / whole + rounding, ..sum })
 }
 
-/// What the integral over a piece is at most, by the range of the integrand: enough to know of a tail.
+/// Bounds the integral over a piece by the range of the integrand: enough to know of a tail.
 fn most<T: Real>(deficit: &impl Integrand, piece: &Piece<T>) -> T {
     let [start, end] =
         [piece.start, piece.start + piece.length].map(|x| Interval::<Wide>::constant(x.widen()));
@@ -103,7 +106,7 @@ fn most<T: Real>(deficit: &impl Integrand, piece: &Piece<T>) -> T {
     if range.is_empty() { T::infinity() } else { (range * (end - start)).magnitude().to_real(Toward::Up) }
 }
 
-/// Each panel is an eighth of the one before.
+/// Returns the ratio of a panel to the one before: an eighth.
 fn ratio<T: Real>() -> T {
     T::HALF * T::HALF * T::HALF
 }

@@ -4,8 +4,8 @@
 //! 1 - Ī = sum over pieces of ∫ H(p) g dt  /  sum over pieces of ∫ g dt,    g = 1 (radial), g = ρ (area)
 //! ```
 //!
-//! The deficit `1 - Ī` rather than the mean information `Ī`: it is small where little is uncertain, and so are its errors. Distances are taken in
-//! units of `z + σ`, so that `g` neither overflows nor vanishes.
+//! The deficit `1 - Ī` rather than the mean information `Ī`: it is small where little is uncertain, and so are its
+//! errors. Distances are taken in units of `z + σ`, so that `g` neither overflows nor vanishes.
 
 use super::Weight;
 use super::model::{Piece, RadialModel};
@@ -15,7 +15,7 @@ use crate::scalar::{Integrand, Scalar};
 use num_traits::Zero;
 use num_traits::float::FloatCore;
 
-/// `H(p) g` along one piece of a model; of a mirrored one, what both of its stretches have at `t` and `-t`.
+/// The integrand `H(p) g` along one piece of a model; of a mirrored one, the sum at `t` and `-t`.
 pub(super) struct Deficit<'a, M> {
     pub(super) model: &'a M,
     pub(super) weight: Weight,
@@ -33,7 +33,7 @@ impl<M: RadialModel> Integrand for Deficit<'_, M> {
     }
 }
 
-/// `g` at `t`, in units of `z + σ` by area; mirrored `g(t) + g(-t)`, which is `2 g(0)`, as `g` is linear.
+/// Returns `g` at `t`, in units of `z + σ` by area; mirrored `g(t) + g(-t)`, which is `2 g(0)`, as `g` is linear.
 fn density<M: RadialModel, S: Scalar>(model: &M, weight: Weight, mirrored: bool, t: S) -> S {
     let distance = |t: S| {
         let ratio = S::constant(model.origin().widen()) / S::constant(model.scale().widen());
@@ -47,13 +47,13 @@ fn density<M: RadialModel, S: Scalar>(model: &M, weight: Weight, mirrored: bool,
     }
 }
 
-/// `∫ g dt` over a piece, without its sign: the length, times `g` in the middle.
+/// Returns `∫ g dt` over a piece, without its sign: the length, times `g` in the middle.
 pub(super) fn extent<M: RadialModel, S: Scalar>(model: &M, weight: Weight, piece: &Piece<S>) -> S {
     let middle = piece.start.clone() + S::constant(0.5) * piece.length.clone();
     piece.length.clone() * density(model, weight, piece.mirrored, middle)
 }
 
-/// An error where `z / σ` is beyond what the type can square.
+/// Refuses a `z / σ` that the type cannot square.
 pub(super) fn check<M: RadialModel>(model: &M) -> Result<(), Error> {
     let ratio = model.origin().widen() / model.scale().widen();
     if !(model.scale() > M::Float::zero() && ratio.is_finite() && M::Float::nearest(ratio * 1e3).is_finite())

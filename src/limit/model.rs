@@ -1,4 +1,5 @@
-//! Radial models: what the continuous mean information integrates (Eq. 6), written once for floats, intervals and rectangles.
+//! Radial models: the integrand of the continuous mean information (Eq. 6), written once for floats, intervals and
+//! rectangles.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -9,39 +10,39 @@ use crate::sensor::{GaussianSensor, SteppedSensor};
 
 /// A stretch of `t` from `start` to `start + length`, over which the entropy is smooth but perhaps at its start.
 ///
-/// A negative length runs towards smaller `t`. A singularity, or a bump much narrower than the piece, may lie at the start, and
-/// only there: the adaptive integral begins with panels that shrink towards it.
+/// A negative length runs towards smaller `t`. A singularity, or a bump much narrower than the piece, may lie at the
+/// start, and only there: the adaptive integral begins with panels that shrink towards it.
 #[derive(Clone, Debug)]
 pub struct Piece<S> {
-    /// Where it starts.
+    /// The start.
     pub start: S,
-    /// How far it reaches, with its sign.
+    /// The length, with its sign.
     pub length: S,
-    /// How many panels the adaptive integral begins with, each an eighth of the one before: enough for the smallest to be no wider
-    /// than what is to be seen at the start. At least 1.
+    /// The number of panels that the adaptive integral begins with, each an eighth of the one before: enough for the
+    /// smallest to be no wider than what is to be seen at the start. At least 1.
     pub panels: usize,
-    /// Whether it stands for two stretches: itself and its mirror image about `t = 0`, with the same entropy at `-t` as at `t`.
-    /// They are integrated at once, at half the work.
+    /// True if the piece stands for two stretches: itself and its mirror image about `t = 0`, with the same entropy at
+    /// `-t` as at `t`. They are integrated at once, at half the work.
     pub mirrored: bool,
 }
 
 impl<S: Scalar> Piece<S> {
-    /// The piece of the given start, length and number of panels.
+    /// Creates a piece of the given start, length and number of panels.
     pub fn new(start: S, length: S, panels: usize) -> Self {
         Self { start, length, panels, mirrored: false }
     }
 
-    /// The piece together with its mirror image about `t = 0`.
+    /// Returns the piece together with its mirror image about `t = 0`.
     #[must_use]
     pub fn mirrored(self) -> Self {
         Self { mirrored: true, ..self }
     }
 }
 
-/// What one sensor reading, or several, say of the points around it: the entropy of the occupancy along a beam.
+/// The entropy of the occupancy along a beam after one sensor reading, or several.
 ///
-/// Distances are `ρ = origin + scale t`, so that `t` can be small where `ρ` is large and its digits would be lost. The pieces
-/// together are the observed stretch, without overlap. Derived in [`limit`](crate::book::limit) (Eq. 6).
+/// Distances are `ρ = origin + scale t`, so that `t` can be small where `ρ` is large and its digits would be lost. The
+/// pieces together are the observed stretch, without overlap. Derived in [`limit`](crate::book::limit) (Eq. 6).
 ///
 /// ```
 /// use mean_information::limit::RadialModel;
@@ -58,30 +59,31 @@ pub trait RadialModel {
     /// The type of the distances.
     type Float: Real;
 
-    /// The distance (metres) at `t = 0`, exactly.
+    /// Returns the distance (metres) at `t = 0`, exactly.
     fn origin(&self) -> Self::Float;
 
-    /// Metres per unit of `t`, exactly; positive.
+    /// Returns the metres per unit of `t`, exactly; positive.
     fn scale(&self) -> Self::Float;
 
-    /// The pieces of the observed stretch, their ends computed in `S`: as intervals they contain the exact ones.
+    /// Returns the pieces of the observed stretch, their ends computed in `S`: as intervals they contain the exact
+    /// ones.
     fn pieces<S: Scalar>(&self) -> Vec<Piece<S>>;
 
-    /// The entropy (bits) of the occupancy at `t`, within the piece of the given index.
+    /// Returns the entropy (bits) of the occupancy at `t`, within the piece of the given index.
     fn entropy<S: Scalar>(&self, piece: usize, t: S) -> S;
 }
 
-/// `√(ln 4)`: where the Gaussian has fallen to 1/2.
+/// Returns `√(ln 4)`, where the Gaussian has fallen to 1/2.
 pub(super) fn half_width<S: Scalar>() -> S {
     (S::constant(2.0) * S::ln_2()).sqrt()
 }
 
-/// `z / σ` of a sensor.
+/// Returns `z / σ` of a sensor.
 pub(super) fn ratio<T: Real, S: Scalar>(sensor: &GaussianSensor<T>) -> S {
     S::constant(sensor.range().widen()) / S::constant(sensor.sigma().widen())
 }
 
-/// The negative logarithm of the Gaussian, `t^2 / 2`.
+/// Returns the negative logarithm of the Gaussian, `t^2 / 2`.
 pub(super) fn exponent<S: Scalar>(t: S) -> S {
     S::constant(0.5) * t.clone() * t
 }
@@ -89,16 +91,17 @@ pub(super) fn exponent<S: Scalar>(t: S) -> S {
 /// Beyond this many `σ` the entropy is below `2^-97`: nothing there but a tail.
 const TAIL: f64 = 12.0;
 
-/// Which side of `z` is the longer one, of the side of the sensor (`z / σ`) and the far one (`√(ln 4)`).
+/// The longer side of `z`, of the side of the sensor (`z / σ`) and the far one (`√(ln 4)`).
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Longer {
     Near,
     Far,
-    /// They differ by roundings at most, so that their difference may have either sign.
+    /// Neither for certain: they differ by roundings at most, so that their difference may have either sign.
     Neither,
 }
 
 impl Longer {
+    /// Compares the sides of a sensor's range.
     pub(super) fn of<T: Real>(sensor: &GaussianSensor<T>) -> Self {
         // Root, quotient and quotient of both err by less than 2 epsilon together.
         let excess = ratio::<T, f64>(sensor) / half_width::<f64>() - 1.0;
@@ -110,7 +113,7 @@ impl Longer {
     }
 }
 
-/// From `-√(ln 4)` down to the sensor, where that is the longer side: its tail apart.
+/// Returns the pieces from `-√(ln 4)` down to the sensor, where that is the longer side: its tail apart.
 pub(super) fn beyond<T: Real, S: Scalar>(sensor: &GaussianSensor<T>, panels: usize) -> Vec<Piece<S>> {
     let piece = |end| Piece::new(-half_width::<S>(), half_width::<S>() - end, panels);
     if ratio::<T, f64>(sensor) <= TAIL {
@@ -119,10 +122,10 @@ pub(super) fn beyond<T: Real, S: Scalar>(sensor: &GaussianSensor<T>, panels: usi
     vec![piece(S::constant(TAIL)), Piece::new(S::constant(-TAIL), S::constant(TAIL) - ratio(sensor), 1)]
 }
 
-/// The panels about `z`, where the entropy is `t^2 ln |t|`.
+/// The number of panels about `z`, where the entropy is `t^2 ln |t|`.
 const PANELS: usize = 4;
 
-/// What both sides of `z` have in common, and what the longer one has beyond.
+/// The pieces: what both sides of `z` have in common, and what the longer one has beyond.
 impl<T: Real> RadialModel for GaussianSensor<T> {
     type Float = T;
 

@@ -6,24 +6,26 @@ use super::model::RadialModel;
 use crate::error::Error;
 use crate::estimate::{Enclosure, Status};
 use crate::interval::{Interval, Toward, Wide};
+use crate::quadrature::Tolerance;
 use crate::quadrature::rigorous::Rigorous;
 use crate::real::Real;
 use crate::scalar::Scalar;
 use num_traits::float::FloatCore;
 use num_traits::{One, Zero};
 
-/// The limit of the mean information (bits per cell) as cells shrink, Eq. 6, between two floats.
+/// Encloses the limit of the mean information (bits per cell) as cells shrink, Eq. 6, between two floats.
 ///
-/// The tolerances of `quadrature` are those of the deficit `1 - Ī`, though no finer than a 64th of the spacing of floats at 1; its
-/// evaluation limit is that of each piece.
+/// The tolerances of `quadrature` are those of the deficit `1 - Ī`, though no finer than a 64th of the spacing of
+/// floats at 1; its evaluation limit is that of each piece.
 ///
 /// **Error**: none; the true value lies in the enclosure, whatever the status (proved:
-/// [`integration`](crate::book::integration)). With the default tolerances it is at most 3 ulp wide for the limits of a room (measured).
+/// [`integration`](crate::book::integration)). With the default tolerances it is at most 3 ulp wide for the limits of a
+/// room (measured).
 ///
 /// Special case: 0, exactly, for a model that observes nothing.
 ///
 /// # Errors
-/// [`Error::OutOfRange`] if `z / σ` is so large that a thousand times it overflows.
+/// [`Error::OutOfRange`] as [`Rigorous::integrate`]; or if `z / σ` is so large that a thousand times it overflows.
 ///
 /// ```
 /// use mean_information::limit::{Weight, rigorous};
@@ -40,6 +42,7 @@ pub fn rigorous<M: RadialModel>(
     quadrature: &Rigorous<M::Float>,
 ) -> Result<Enclosure<M::Float>, Error> {
     check(model)?;
+    quadrature.check()?;
     let pieces = model.pieces::<Interval<Wide>>();
     if pieces.is_empty() {
         let zero = M::Float::zero();
@@ -53,9 +56,9 @@ pub fn rigorous<M: RadialModel>(
     for (index, piece) in pieces.into_iter().enumerate() {
         let to = piece.start + piece.length;
         // What is small beside the pieces before it need not be known to the same digits.
-        let absolute = (quadrature.absolute.max(finest()) * to_float(whole))
-            .max(quadrature.relative * to_float(deficit));
-        let part = Rigorous { absolute, ..*quadrature }.between(
+        let Tolerance { absolute, relative } = quadrature.tolerance();
+        let absolute = (absolute.max(Rigorous::finest()) * to_float(whole)).max(relative * to_float(deficit));
+        let part = quadrature.absolute(absolute).between(
             &Deficit { model, weight, piece: index, mirrored: piece.mirrored },
             piece.start,
             to,
@@ -76,7 +79,7 @@ pub fn rigorous<M: RadialModel>(
     })
 }
 
-/// The magnitudes: where a wide enclosure leaves the sign open, from 0 on.
+/// Returns the magnitudes: where a wide enclosure leaves the sign open, from 0 on.
 fn magnitude(x: Interval<Wide>) -> Interval<Wide> {
     let zero = Interval::constant(0.0);
     if x.upper() <= zero.upper() {
@@ -89,12 +92,7 @@ fn magnitude(x: Interval<Wide>) -> Interval<Wide> {
     }
 }
 
-/// A sixteenth of the spacing of floats below 1/2: what is finer than this the result cannot show.
-fn finest<T: Real>() -> T {
-    T::epsilon() * T::from_parts(1, -6)
-}
-
-/// A float near its lower end, to compare errors with.
+/// Returns a float near the lower end of `x`, to compare errors with.
 fn to_float<T: Real>(x: Interval<Wide>) -> T {
     x.lower().to_real(Toward::Down)
 }

@@ -22,8 +22,8 @@ fn ulp<T: Real>(x: T) -> T {
 
 /// Settings with which the work ends early.
 fn coarse_rules<T: Real>() -> [Rigorous<T>; 4] {
-    let few = |n| Rigorous::default().with_limit(n).expect("positive");
-    let wide = |absolute: f64| Rigorous::new(T::nearest(absolute), T::zero()).expect("not negative");
+    let few = |n| Rigorous::new().limit(n);
+    let wide = |absolute: f64| Rigorous::new().absolute(T::nearest(absolute)).relative(T::zero());
     [few(1), few(100), wide(1e30), wide(0.125)]
 }
 
@@ -179,7 +179,7 @@ fn a_ratio_beyond_the_type_is_refused() {
 #[test]
 fn a_limit_on_evaluations_shows_in_the_status() {
     let sensor = GaussianSensor::new(3.0_f64, 0.125).unwrap();
-    let few = rigorous(&sensor, Weight::Radial, &Rigorous::default().with_limit(100).unwrap()).unwrap();
+    let few = rigorous(&sensor, Weight::Radial, &Rigorous::new().limit(100)).unwrap();
     assert_eq!(few.status, Status::EvaluationLimit);
     assert!(few.contains(closed_form(&sensor, Weight::Radial)));
 }

@@ -82,7 +82,7 @@ fn check(f: &impl Integrand, from: f64, to: f64, expected: &str) {
     assert!(holds(single, expected), "{expected} is not in {single:?}");
     assert!(single.upper <= single.lower.next_up().next_up(), "{expected} in {single:?}");
     for tolerance in [0.25, 1e-2, 1e-4, 1e-8] {
-        let coarse = Rigorous::new(0.0, tolerance).unwrap().integrate(f, from, to).unwrap();
+        let coarse = Rigorous::new().relative(tolerance).integrate(f, from, to).unwrap();
         assert!(holds(coarse, expected), "{expected} is not in {coarse:?}");
         assert_eq!(coarse.status, Status::Converged, "{expected}");
         assert!(
@@ -163,7 +163,7 @@ proptest! {
     fn parts_add_up(
         from in -3.0_f64..3.0, length in 1e-3_f64..4.0, share in 0.0_f64..=1.0, width in 1e-15_f64..1e-3
     ) {
-        let rule = Rigorous::new(width, 0.0)?;
+        let rule = Rigorous::new().absolute(width).relative(0.0);
         let to = from + length;
         let middle = (from + share * length).clamp(from, to);
         let integrals = |f: fn(&Rigorous<f64>, f64, f64) -> Enclosure<f64>| {
@@ -194,7 +194,7 @@ proptest! {
                 (1..self.0).fold(x.clone(), |power, _| power * x.clone())
             }
         }
-        let integral = Rigorous::new(0.01, 0.0)?.integrate(&Power(k), f64::from(a) / 8.0, f64::from(b) / 8.0)?;
+        let integral = Rigorous::new().absolute(0.01).relative(0.0).integrate(&Power(k), f64::from(a) / 8.0, f64::from(b) / 8.0)?;
         // In units of 1 / (8^(k+1) (k+1)): integers below 2^53.
         let exact = i64::from(b).pow(k + 1) - i64::from(a).pow(k + 1);
         let unit = f64::from_parts(1, 3 * (k as i32 + 1)) * f64::from(k + 1);
@@ -213,7 +213,8 @@ fn no_length_no_integral() {
     let smallest = f64::from_bits(1);
     let integral = rule.integrate(&Exponential, 0.0, smallest).unwrap();
     assert!(integral.contains(smallest) && integral.upper <= 2.0 * smallest);
-    let integral = Rigorous::new(1e300, 0.0).unwrap().integrate(&Witch, -f64::MAX, f64::MAX).unwrap();
+    let integral =
+        Rigorous::new().absolute(1e300).relative(0.0).integrate(&Witch, -f64::MAX, f64::MAX).unwrap();
     assert!(integral.contains(core::f64::consts::PI));
 }
 
@@ -256,7 +257,7 @@ fn roundings_do_not_make_it_search_for_ever() {
 /// panel. An absolute tolerance that 128 bits can hold is met, and a finer one is given up.
 #[test]
 fn roundings_of_the_integrand_do_not_make_it_search_for_ever() {
-    let rule = Rigorous::<f64>::new(1e-22, 0.0).unwrap();
+    let rule = Rigorous::<f64>::new().absolute(1e-22).relative(0.0);
     let integral = rule.integrate(&Cancelling, 0.0, 1e-3).unwrap();
     assert_eq!(integral.status, Status::Converged);
     assert!(integral.evaluations < 2000);
@@ -276,7 +277,7 @@ fn roundings_of_the_integrand_do_not_make_it_search_for_ever() {
 #[test]
 fn the_limit_of_evaluations_is_kept() {
     for limit in [1, 20, 100, 200, 400, 100_000] {
-        let rule = Rigorous::<f64>::default().with_limit(limit).unwrap();
+        let rule = Rigorous::<f64>::new().limit(limit);
         let integral = rule.integrate(&Entropy, 0.0, 1.0).unwrap();
         assert!(holds(integral, "0.7213475204444817036799623405009460687133"), "{limit}");
         assert_eq!(integral.status == Status::EvaluationLimit, limit < 1000, "{limit}");
@@ -300,13 +301,18 @@ fn bad_requests_are_refused_with_their_reason() {
     let refused = |from, to| rule.integrate(&Witch, from, to).unwrap_err().to_string();
     assert_eq!(refused(f64::NAN, 2.0), "lower limit of the integral is NaN, allowed is finite");
     assert_eq!(refused(2.0, f64::INFINITY), "upper limit of the integral is inf, allowed is finite");
-    let refused = |absolute, relative| Rigorous::<f64>::new(absolute, relative).unwrap_err().to_string();
-    assert_eq!(refused(-1.0, 0.25), "absolute tolerance is -1, allowed is 0 or more, finite");
-    assert!(refused(f64::NAN, 0.25).starts_with("absolute tolerance is NaN"));
-    assert!(refused(f64::INFINITY, 0.25).starts_with("absolute tolerance is inf"));
-    assert_eq!(refused(0.25, 1.0), "relative tolerance is 1, allowed is 0 or more, below 1");
-    assert!(refused(0.0, 0.0).contains("unless there is an absolute tolerance"));
-    assert!(refused(0.0, 1e-18).contains("2^-58 or more"));
-    assert!(Rigorous::<f32>::new(0.0, 1e-9).is_err() && Rigorous::<f32>::new(0.0, 1e-8).is_ok());
-    assert_eq!(rule.with_limit(0).unwrap_err().to_string(), "evaluation limit is 0, allowed is 1 or more");
+    let refused = |rule: Rigorous<f64>| rule.integrate(&Witch, 0.5, 2.0).unwrap_err().to_string();
+    for absolute in [-1.0, f64::NAN, f64::INFINITY] {
+        let expected = format!("absolute tolerance is {absolute}, allowed is 0, or positive and finite");
+        assert_eq!(refused(rule.absolute(absolute)), expected);
+    }
+    for relative in [-0.25, 1e-18, 1.5, f64::NAN] {
+        let allowed = "allowed is 0, or from 2^-58 (f32: 2^-29) up to 1";
+        assert_eq!(refused(rule.relative(relative)), format!("relative tolerance is {relative}, {allowed}"));
+    }
+    let none = "tolerance is 0, allowed is a positive absolute or relative one";
+    assert_eq!(refused(rule.relative(0.0)), none);
+    let single = |relative| Rigorous::<f32>::new().relative(relative).integrate(&Witch, 0.5, 2.0);
+    assert!(single(1e-9).is_err() && single(1e-8).is_ok());
+    assert_eq!(refused(rule.limit(0)), "evaluation limit is 0, allowed is 1 or more");
 }

@@ -11,24 +11,29 @@ pub(super) struct Compensated<T> {
 }
 
 impl<T: Real> Compensated<T> {
+    /// Creates the sum of one term.
     pub(super) fn new(x: T) -> Self {
         Self { sum: x, lost: T::zero() }
     }
 
+    /// Adds a term.
     #[must_use]
     pub(super) fn plus(self, x: T) -> Self {
         let sum = self.sum + x;
+        // Knuth's two-sum: what the addition has lost, exactly.
         let of_x = sum - self.sum;
         let lost = (self.sum - (sum - of_x)) + (x - of_x);
         Self { sum, lost: self.lost + lost }
     }
 
+    /// Adds another sum.
     #[must_use]
     pub(super) fn merged(self, other: Self) -> Self {
         let Self { sum, lost } = self.plus(other.sum);
         Self { sum, lost: lost + other.lost }
     }
 
+    /// Returns the sum, rounded once.
     pub(super) fn value(self) -> T {
         self.sum + self.lost
     }

@@ -4,11 +4,11 @@ use crate::error::Error;
 use crate::real::Real;
 use alloc::vec::Vec;
 
-/// The most panels that are graded: an `f64` halved that often has long been 0.
+/// The largest number of panels that are graded: an `f64` halved that often has long been 0.
 const MOST: usize = 10_000;
 
-/// Break points from `from` to `towards`, where the panels shrink geometrically: `towards + (from - towards) ratio^k`
-/// for `k = 0, 1, ..., panels - 1`, and `towards`. In ascending order, whichever end is the upper.
+/// Returns break points from `from` to `towards` whose panels shrink geometrically: `towards + (from - towards)
+/// ratio^k` for `k = 0, 1, ..., panels - 1`, and `towards`. In ascending order, whichever end is the upper.
 ///
 /// For [`integrate_between`](super::GaussKronrod::integrate_between): towards a singularity, to spare the halvings
 /// that would find it; towards the end where the mass of a long interval lies.

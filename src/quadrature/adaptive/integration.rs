@@ -18,11 +18,12 @@ pub(super) struct Integration<'a, T, F> {
 }
 
 impl<'a, T: Real, F: FnMut(T) -> T> Integration<'a, T, F> {
+    /// Creates an integration that has evaluated nothing.
     pub(super) fn new(settings: &'a GaussKronrod<T>, f: F) -> Self {
         Self { settings, f, panels: Panels::new(), evaluations: 0, unresolved: None }
     }
 
-    /// The integral over the stretches, which make up the whole.
+    /// Integrates over the stretches, which make up the whole.
     pub(super) fn run(
         mut self,
         stretches: impl Iterator<Item = Stretch<T>>,
@@ -43,10 +44,11 @@ impl<'a, T: Real, F: FnMut(T) -> T> Integration<'a, T, F> {
                 return self.ended(value, value, not_finite(whole));
             }
             let error = totals.reducible + totals.fixed;
-            let tolerance = self.settings.absolute.max(self.settings.relative * value.abs());
+            let tolerance = self.settings.tolerance.of(value.abs());
             if error <= tolerance {
                 return self.ended(value, error, Status::Converged);
             }
+            // More halving would spend evaluations on the smaller half of the claim.
             if totals.fixed > tolerance && totals.reducible <= totals.fixed {
                 return self.ended(value, error, self.out_of_reach(totals.fixed));
             }
@@ -62,6 +64,7 @@ impl<'a, T: Real, F: FnMut(T) -> T> Integration<'a, T, F> {
         let worst = self.panels.worst(totals);
         let [left, right] = worst.stretch.halves();
         if !(left.has_room_for(rule.outermost()) && right.has_room_for(rule.outermost())) {
+            // Floats end here: the claim stays as it is, and halving will not come back.
             let settled = Panel { reducible: T::zero(), fixed: worst.fixed + worst.reducible, ..worst };
             if self.unresolved.is_none_or(|panel| panel.fixed < settled.fixed) {
                 self.unresolved = Some(settled);
@@ -79,7 +82,7 @@ impl<'a, T: Real, F: FnMut(T) -> T> Integration<'a, T, F> {
         Ok(())
     }
 
-    /// The panel on a stretch, given the panel that it is a half of.
+    /// Measures the panel on a stretch, given the panel that it is a half of.
     fn measured(&mut self, stretch: Stretch<T>, parent: Option<&Panel<T>>) -> Result<Panel<T>, Status<T>> {
         let rule = self.settings.rule;
         self.evaluations += rule.evaluations();
@@ -87,7 +90,7 @@ impl<'a, T: Real, F: FnMut(T) -> T> Integration<'a, T, F> {
         if panel.value.is_finite() { Ok(panel) } else { Err(not_finite(stretch)) }
     }
 
-    /// Why halving does not help, given the part of the error that it does not reduce.
+    /// Returns the reason why halving does not help, given the part of the error that it does not reduce.
     fn out_of_reach(&self, fixed: T) -> Status<T> {
         match self.unresolved {
             Some(Panel { stretch: Stretch { lower, upper }, fixed: most, .. }) if most + most >= fixed => {
@@ -97,6 +100,7 @@ impl<'a, T: Real, F: FnMut(T) -> T> Integration<'a, T, F> {
         }
     }
 
+    /// Returns the estimate at the end; one that is not finite has the value NaN and an infinite error.
     fn ended(&self, value: T, error: T, status: Status<T>) -> Estimate<T> {
         let [value, error] = match status {
             Status::NotFinite { .. } => [T::nan(), T::infinity()],
@@ -106,12 +110,13 @@ impl<'a, T: Real, F: FnMut(T) -> T> Integration<'a, T, F> {
     }
 }
 
+/// Returns the status of an integrand that is not finite on a stretch.
 fn not_finite<T>(stretch: Stretch<T>) -> Status<T> {
     Status::NotFinite { lower: stretch.lower, upper: stretch.upper }
 }
 
-/// The claim on a stretch: the noise, and the series `d + 2 d r + 3 d r^2 + ... = d / (1 - r)^2` of the difference `d`,
-/// were each further halving to reduce it by `r`, and could each err as all before it together.
+/// Claims an error on a stretch: the noise, and the series `d + 2 d r + 3 d r^2 + ... = d / (1 - r)^2` of the
+/// difference `d`, were each further halving to reduce it by `r`, and could each err as all before it together.
 ///
 /// `r` is the slowest of three: of the bands, of `d` to that of the panel before it was halved, and of the halving
 /// before that. Where they do not fall nothing is known, and the claim is infinite: so it is in a first panel whose
@@ -125,8 +130,10 @@ fn claimed<T: Real>(reading: &Reading<T>, stretch: Stretch<T>, parent: Option<&P
     };
     let slowest = parent.map_or(ratio, |parent| ratio.max(parent.ratio));
     let (reducible, fixed) = if difference <= noise {
+        // Nothing to be gained by halving ("Rounding").
         (T::zero(), noise + difference)
     } else if slowest < T::one() {
+        // Σ k d r^(k - 1): every further halving, each erring as all before it ("Slow convergence").
         let fall = T::one() - slowest;
         (difference / (fall * fall), noise)
     } else {
@@ -135,10 +142,10 @@ fn claimed<T: Real>(reading: &Reading<T>, stretch: Stretch<T>, parent: Option<&P
     Panel { stretch, value, difference, ratio, alike: false, reducible, fixed }
 }
 
-/// What counts as of the same size as the whole, in a half of it.
+/// The factor within which the difference of a half counts as of the size of the whole's.
 const ALIKE: u64 = 8;
 
-/// The halves of a panel, compared with it. A smooth integrand reduces the difference in both, a singular point in
+/// Compares the halves of a panel with it. A smooth integrand reduces the difference in both, a singular point in
 /// one. If it is of the same size in both, and was so when the whole was a half, and is in the lower half of the
 /// digits of the integral (whose last ones are `fixed`), then the integrand is less smooth than its floats: it is
 /// noise, which no halving reduces.

@@ -19,6 +19,8 @@ use crate::error::Error;
 use crate::estimate::Estimate;
 #[cfg(doc)]
 use crate::estimate::Status;
+use crate::quadrature::Tolerance;
+use crate::quadrature::tolerance::Finest;
 use crate::real::Real;
 use integration::Integration;
 use stretch::Stretch;
@@ -50,8 +52,7 @@ use stretch::Stretch;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GaussKronrod<T> {
     pub(crate) rule: Rule,
-    pub(crate) absolute: T,
-    pub(crate) relative: T,
+    pub(crate) tolerance: Tolerance<T>,
     pub(crate) limit: u64,
 }
 
@@ -62,39 +63,43 @@ impl<T: Real> Default for GaussKronrod<T> {
 }
 
 impl<T: Real> GaussKronrod<T> {
-    /// The rule [`K21`](Rule::K21), three quarters of the digits (a relative tolerance of `2^-39` in `f64`, `2^-18`
-    /// in `f32`, and none absolute), and at most 100 000 evaluations.
+    /// Creates the settings of the rule [`K21`](Rule::K21), three quarters of the digits (a relative tolerance of
+    /// `2^-39` in `f64`, `2^-18` in `f32`, and none absolute), and at most 100 000 evaluations.
     pub fn new() -> Self {
         let digits = (3 * T::PRECISION / 4) as i32;
-        Self { rule: Rule::K21, absolute: T::zero(), relative: T::from_parts(1, -digits), limit: 100_000 }
+        Self {
+            rule: Rule::K21,
+            tolerance: Tolerance { absolute: T::zero(), relative: T::from_parts(1, -digits) },
+            limit: 100_000,
+        }
     }
 
-    /// The rule for each panel.
+    /// Sets the rule for each panel.
     #[must_use]
     pub fn rule(self, rule: Rule) -> Self {
         Self { rule, ..self }
     }
 
-    /// The tolerance relative to the value: 0 for none, or from the spacing of floats at 1 (`2^-52` in `f64`, `2^-23`
-    /// in `f32`) up to 1.
+    /// Sets the tolerance relative to the value: 0 for none, or from the spacing of floats at 1 (`2^-52` in `f64`,
+    /// `2^-23` in `f32`) up to 1.
     #[must_use]
     pub fn relative(self, relative: T) -> Self {
-        Self { relative, ..self }
+        Self { tolerance: Tolerance { relative, ..self.tolerance }, ..self }
     }
 
-    /// The absolute tolerance, in units of the integral: 0 for none, or any positive number.
+    /// Sets the absolute tolerance, in units of the integral: 0 for none, or any positive number.
     #[must_use]
     pub fn absolute(self, absolute: T) -> Self {
-        Self { absolute, ..self }
+        Self { tolerance: Tolerance { absolute, ..self.tolerance }, ..self }
     }
 
-    /// The most evaluations: at least one rule for every panel between break points.
+    /// Sets the largest number of evaluations: at least one rule for every panel between break points.
     #[must_use]
     pub fn limit(self, limit: u64) -> Self {
         Self { limit, ..self }
     }
 
-    /// The integral of `f` from `from` to `to`; the negative of that from `to` to `from`.
+    /// Integrates `f` from `from` to `to`: the negative of the integral from `to` to `from`.
     ///
     /// **Error**: as [`GaussKronrod`] says. **Status**: [`Converged`](Status::Converged) within the tolerance;
     /// [`EvaluationLimit`](Status::EvaluationLimit) before that; [`RoundOff`](Status::RoundOff) where rounding is
@@ -129,7 +134,7 @@ impl<T: Real> GaussKronrod<T> {
         Ok(Estimate { value: -estimate.value, ..estimate })
     }
 
-    /// The integral of `f` from the first of the points to the last, with panels that begin between them: give those
+    /// Integrates `f` from the first of the points to the last, with panels that begin between them: give those
     /// where `f` or its derivatives jump or are infinite, and a few about each narrow peak ([`graded`]).
     ///
     /// **Error**: the claim of [`integrate`](Self::integrate), whose status and special case hold, too. Points may repeat.
@@ -167,22 +172,12 @@ impl<T: Real> GaussKronrod<T> {
         Ok(Integration::new(self, f).run(stretches, Stretch { lower, upper }))
     }
 
-    /// Whether the settings can be met with so many first panels.
+    /// Refuses settings that cannot be met with the given number of first panels.
     fn check(&self, panels: u64) -> Result<(), Error> {
-        let refused = |what, value: T, allowed| Err(Error::out_of_range(what, value.widen(), allowed));
-        if !(self.absolute >= T::zero() && self.absolute.is_finite()) {
-            return refused("absolute tolerance", self.absolute, "0, or positive and finite");
-        }
-        if !(self.relative.is_zero() || self.relative >= T::epsilon() && self.relative <= T::one()) {
-            return refused(
-                "relative tolerance",
-                self.relative,
-                "0, or from the spacing of floats at 1 up to 1",
-            );
-        }
-        if self.absolute.is_zero() && self.relative.is_zero() {
-            return refused("tolerance", T::zero(), "a positive absolute or relative one");
-        }
+        self.tolerance.check(&Finest {
+            relative: T::epsilon(),
+            allowed: "0, or from the spacing of floats at 1 up to 1",
+        })?;
         if self.limit < panels.max(1).saturating_mul(self.rule.evaluations()) {
             return Err(Error::out_of_range("evaluation limit", self.limit as f64, self.rule.least()));
         }

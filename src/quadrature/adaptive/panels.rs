@@ -14,11 +14,11 @@ use alloc::vec::Vec;
 pub(super) struct Panel<T> {
     pub(super) stretch: Stretch<T>,
     pub(super) value: T,
-    /// How far off the rule seemed to be.
+    /// The difference from the truth that the rule showed.
     pub(super) difference: T,
-    /// How fast that falls.
+    /// The factor by which halving reduces that, the slower of the last two.
     pub(super) ratio: T,
-    /// Whether it is about as large as that of the other half, and as that of both before.
+    /// True if both halves of the panel above had a difference of about its size.
     pub(super) alike: bool,
     /// The part of the claimed error that halving can reduce.
     pub(super) reducible: T,
@@ -26,7 +26,7 @@ pub(super) struct Panel<T> {
     pub(super) fixed: T,
 }
 
-/// Sums over panels.
+/// The sums over panels.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Totals<T> {
     value: Compensated<T>,
@@ -38,10 +38,12 @@ pub(super) struct Totals<T> {
 }
 
 impl<T: Real> Totals<T> {
+    /// Returns the integral over all panels, as good as one rounding.
     pub(super) fn value(&self) -> T {
         self.value.value()
     }
 
+    /// Merges the totals of two sets of panels; of two worst panels alike the former stays.
     fn merged(self, other: Self) -> Self {
         let (worst, most) =
             if other.most > self.most { (other.worst, other.most) } else { (self.worst, self.most) };
@@ -61,21 +63,24 @@ pub(super) struct Panels<T> {
 }
 
 impl<T: Real> Panels<T> {
+    /// Creates a tree without panels.
     pub(super) fn new() -> Self {
         Self { places: Vec::new() }
     }
 
+    /// Adds a panel at the next free place.
     pub(super) fn push(&mut self, panel: Panel<T>) {
         let place = self.places.len();
         self.places.push((panel, alone(place, &panel)));
         self.renew(place);
     }
 
-    /// The totals; none if there is no panel.
+    /// Returns the totals of all panels; none if there is no panel.
     pub(super) fn totals(&self) -> Option<Totals<T>> {
         self.places.first().map(|(_, totals)| *totals)
     }
 
+    /// Returns the panel with the largest reducible part.
     pub(super) fn worst(&self, totals: &Totals<T>) -> Panel<T> {
         self.places[totals.worst].0
     }
@@ -89,6 +94,7 @@ impl<T: Real> Panels<T> {
     /// Renews the totals of a place and of those above it.
     fn renew(&mut self, mut place: usize) {
         loop {
+            // Always a sum over panels, never a corrected one: large early claims leave no trace ("Halving the worst").
             let mut totals = alone(place, &self.places[place].0);
             for below in [2 * place + 1, 2 * place + 2] {
                 if let Some((_, other)) = self.places.get(below) {
@@ -104,7 +110,7 @@ impl<T: Real> Panels<T> {
     }
 }
 
-/// The totals of one panel.
+/// Returns the totals of one panel.
 fn alone<T: Real>(place: usize, panel: &Panel<T>) -> Totals<T> {
     Totals {
         value: Compensated::new(panel.value),

@@ -34,7 +34,7 @@ pub enum Rule {
     K61,
 }
 
-/// The most nodes of a rule.
+/// The largest number of nodes of a rule.
 const MOST: usize = 61;
 
 /// One side of a rule, from the outermost node to the middle.
@@ -45,12 +45,12 @@ struct Table {
     bands: &'static [[f64; 8]],
 }
 
-/// What one application of a rule tells of a stretch.
+/// The findings of one application of a rule to a stretch.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reading<T> {
     /// The integral by all nodes.
     pub(super) value: T,
-    /// How far off it seems to be by these values alone, rounding apart.
+    /// The error that these values alone suggest, rounding apart.
     pub(super) difference: T,
     /// The ratio of the upper band of the Legendre series to the lower, at most 1.
     pub(super) decay: T,
@@ -62,17 +62,18 @@ impl Rule {
     /// Every rule, from the fewest nodes to the most.
     pub const ALL: [Self; 6] = [Self::K15, Self::K21, Self::K31, Self::K41, Self::K51, Self::K61];
 
-    /// How many values of the integrand one application takes, `2n + 1`.
+    /// Returns the number of evaluations of one application, `2n + 1`.
     pub const fn evaluations(self) -> u64 {
         self.table().nodes.len() as u64 * 2 - 1
     }
 
-    /// The highest degree of polynomials that are integrated exactly: `3n + 1`, or `3n + 2` for odd `n`, by symmetry.
+    /// Returns the highest degree of polynomials that are integrated exactly: `3n + 1`, or `3n + 2` for odd `n`, by
+    /// symmetry.
     pub const fn degree(self) -> u64 {
         (3 * self.table().nodes.len() as u64 - 2) | 1
     }
 
-    /// The least limit on evaluations, in words.
+    /// Returns the least limit on evaluations, in words.
     pub(super) const fn least(self) -> &'static str {
         match self {
             Self::K15 => "15 or more for each panel between break points",
@@ -84,6 +85,7 @@ impl Rule {
         }
     }
 
+    /// Returns the nodes and weights.
     const fn table(self) -> Table {
         macro_rules! table {
             ($nodes:ident, $kronrod:ident, $gauss:ident) => {
@@ -105,7 +107,7 @@ impl Rule {
         }
     }
 
-    /// The outermost node.
+    /// Returns the outermost node.
     pub(super) fn outermost<T: Real>(self) -> T {
         T::nearest(self.table().nodes[0])
     }
@@ -127,7 +129,7 @@ impl Rule {
 }
 
 impl Table {
-    /// What the values at the nodes, in ascending order, tell of the stretch.
+    /// Reads from the values at the nodes, in ascending order, what they tell of the stretch.
     fn read<T: Real>(&self, values: &[T], stretch: Stretch<T>) -> Reading<T> {
         let last = values.len() - 1;
         // Means rather than integrals: nothing overflows that need not.
@@ -135,15 +137,18 @@ impl Table {
         let (mut by_all, mut by_gauss) = (Compensated::default(), Compensated::default());
         let (mut size, mut series) = (T::zero(), [T::zero(); 8]);
         for (i, (&weight, band)) in self.kronrod.iter().zip(self.bands).enumerate() {
+            // The middle node counts once.
             let before = if i == last - i { T::zero() } else { values[i] };
             let after = values[last - i];
             let [low, high] = [before, after].map(|value| half(weight) * value);
             by_all = by_all.plus(low).plus(high);
+            // The mean of |g|, for the noise: 5 epsilon of it ("Rounding").
             size = size + (low.abs() + high.abs());
             if i % 2 == 1 {
                 let weight = half(self.gauss[i / 2]);
                 by_gauss = by_gauss.plus(weight * before).plus(weight * after);
             }
+            // P_k is even or odd with k: one product serves both sides.
             let by_parity = [high + low, high - low];
             for (k, coefficient) in series.iter_mut().enumerate() {
                 *coefficient = *coefficient + T::nearest(band[k]) * by_parity[k % 2];
@@ -152,11 +157,13 @@ impl Table {
 
         let [lower, upper] = [&series[..4], &series[4..]]
             .map(|band| band.iter().fold(T::zero(), |sum, coefficient| sum + coefficient.abs()));
+        // β2 / β1 ("Agreement by accident"); 1 where nothing falls.
         let decay = match upper {
             _ if upper < lower => upper / lower,
             _ if upper.is_zero() => upper,
             _ => T::one(),
         };
+        // ê: the two rules apart, or what the bands expect at degree 2n, whichever is larger.
         let apart = (by_all.value() - by_gauss.value()).abs();
         let difference = if upper.is_finite() { apart.max(upper * decay) } else { T::infinity() };
         Reading {
@@ -168,16 +175,19 @@ impl Table {
     }
 }
 
-/// A bound on what rounding does to the integral over a stretch, given the mean of `|f|`.
+/// Bounds what rounding does to the integral over a stretch, given the mean of `|f|`.
 ///
-/// In units of the epsilon `2u`: relative to `|f|`, 1/2 each for weight, product, sum, width and last product, 2 for the
-/// integrand, and 1/2 for the sum over all panels; in the argument, 2 for the node (`c ± h x` has six roundings, below
-/// `4u` of the end in all) and 2 for the integrand's own. Below the normal range, a spacing for every product and sum.
+/// In units of the epsilon `2u`: relative to `|f|`, 1/2 each for weight, product, sum, width and last product, 2 for
+/// the integrand, and 1/2 for the sum over all panels; in the argument, 2 for the node (`c ± h x` has six roundings,
+/// below `4u` of the end in all) and 2 for the integrand's own. Below the normal range, a spacing for every product and
+/// sum.
 fn noise<T: Real>(values: &[T], size: T, stretch: Stretch<T>) -> T {
     let epsilon = T::epsilon();
     let [four, five] = [4, 5].map(|k| T::from_parts(k, 0));
+    // Σ |g(x_(i+1)) - g(x_i)|, times epsilon before the difference so that it cannot overflow.
     let variation =
         values.windows(2).fold(T::zero(), |sum, pair| sum + (epsilon * pair[1] - epsilon * pair[0]).abs());
+    // Products below the normal range are rounded to whole spacings.
     let floor = if values.iter().all(T::is_zero) {
         T::zero()
     } else {
@@ -186,9 +196,9 @@ fn noise<T: Real>(values: &[T], size: T, stretch: Stretch<T>) -> T {
     stretch.widths(five * epsilon * size + floor) + four * variation * stretch.magnitude() + floor
 }
 
-/// What turns the values of one side into two bands of the Legendre series, the coefficients of degrees `n - 3` to
-/// `n` and of four up to `(3n + 1) / 2`: the highest that Kronrod's rule finds without a share of lower ones, as the
-/// product of two polynomials of that degree is one that it integrates.
+/// Returns the factors that turn the values of one side into two bands of the Legendre series, the coefficients of
+/// degrees `n - 3` to `n` and of four up to `(3n + 1) / 2`: the highest that Kronrod's rule finds without a share of
+/// lower ones, as the product of two polynomials of that degree is one that it integrates.
 ///
 /// A coefficient is that of the orthonormal polynomial `√(2k + 1) P_k(x)`. Degree `k` stands in place `k % 4` of its
 /// band, so that the parity of the place is that of the polynomial.
@@ -211,7 +221,7 @@ const fn bands<const N: usize>(nodes: &[f64; N]) -> [[f64; 8]; N] {
     result
 }
 
-/// Heron's method, from above, for the compiler.
+/// Returns the square root by Heron's method, from above, for the compiler.
 const fn square_root(x: f64) -> f64 {
     let mut root = x;
     let mut step = 0;

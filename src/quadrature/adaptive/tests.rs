@@ -214,7 +214,8 @@ fn sums_keep_what_they_lose() {
     assert_eq!(right.merged(Compensated::new(large)).value(), 1.5);
 }
 
-/// Halves that err as much as the whole, twice in a row, and by less than `2^26` times the noise: nothing is to be gained.
+/// Halves that err as much as the whole, twice in a row, and by less than `2^26` times the noise: nothing is to be
+/// gained.
 #[test]
 fn what_no_halving_reduces_is_noise() {
     let panel = |difference: f64, alike| Panel {

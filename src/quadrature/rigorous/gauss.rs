@@ -10,13 +10,13 @@ use crate::scalar::{Integrand, Scalar};
 /// The ellipses that are tried, by their `r`.
 const ELLIPSES: [f64; 4] = [5.0, 3.0, 2.0, 1.5];
 
-/// The upper half of an ellipse lies in five rectangles: from one fraction of the half axis to the other, as high as
+/// Five rectangles that cover the upper half of an ellipse: from one fraction of the half axis to the other, as high as
 /// a third fraction of the other half axis, `√(1 - x^2)` or a little more at the end nearer to the middle. Outer ones
 /// first: singularities lie there.
 pub(super) const RECTANGLES: [(f64, f64, f64); 5] =
     [(-1.0, -0.8, 0.601), (0.8, 1.0, 0.601), (-0.8, -0.35, 0.937), (0.35, 0.8, 0.937), (-0.35, 0.35, 1.0)];
 
-/// The nodes and weights of one of the rules, as floats.
+/// Returns the nodes and weights of one of the rules, as floats.
 pub(super) fn floats() -> impl Iterator<Item = (f64, f64)> {
     let float = |value: u128| (value >> 64) as f64 / (1_u64 << 63) as f64;
     RULES[6].iter().map(move |&(node, weight)| (float(node), float(weight)))
@@ -28,19 +28,20 @@ pub(super) struct Choice {
     remainder: f64,
 }
 
-/// Which ellipse fitted last: neighbours are alike.
+/// The memory of which ellipse fitted last: neighbours are alike.
 pub(super) struct Chooser {
     last: usize,
-    /// Whether the last panel had none, and so perhaps its half has none.
+    /// True if the last panel had none, and so perhaps its half has none.
     none: bool,
 }
 
 impl Chooser {
+    /// Creates a memory without panels.
     pub(super) fn new() -> Self {
         Self { last: 0, none: false }
     }
 
-    /// The shortest rule whose remainder between `a` and `b` is at most `allowed`.
+    /// Chooses the shortest rule whose remainder between `a` and `b` is at most `allowed`.
     pub(super) fn choose(
         &mut self,
         f: &impl Integrand,
@@ -55,11 +56,13 @@ impl Chooser {
         let mut largest = |ellipse: f64, rectangles: &[(f64, f64, f64)]| {
             let (rho, inverse) =
                 (Interval::point(ellipse), Interval::constant(1.0) / Interval::point(ellipse));
+            // Half axes (r ± 1/r) / 2 of the half width.
             let (long, short) = (half * (rho + inverse) * radius, half * (rho - inverse) * radius);
             let mut largest = 0.0_f64;
             for &(from, to, height) in rectangles {
                 let end = |fraction| centre + Interval::<f64>::constant(fraction) * long;
                 let height = short * Interval::constant(height);
+                // The upper half tells all: f of the conjugate is the conjugate ("Rectangles").
                 let rectangle = Complex::new(end(from).hull(end(to)), Interval::between(0.0, height.upper()));
                 largest = largest.max(f.evaluate(rectangle).bound());
                 *evaluations += 1;
@@ -87,15 +90,17 @@ impl Chooser {
     }
 }
 
-/// The shortest rule for an integrand that is at most `bound` on an ellipse.
+/// Returns the shortest rule for an integrand that is at most `bound` on an ellipse.
 fn rule(ellipse: f64, bound: f64, radius: Interval<f64>, allowed: f64) -> Option<Choice> {
     let inverse = Interval::constant(1.0) / Interval::point(ellipse);
     let square = inverse * inverse;
     let (one, ratio) = (Interval::constant(1.0), square * square);
+    // (64/15) G r^-2n / (1 - r^-2), times the half width: theorem (remainder).
     let scale = Interval::constant(64.0) / Interval::constant(15.0) * radius / (one - square);
     let mut remainder = scale * Interval::point(bound) * ratio;
     let mut nodes = 2;
     for rule in RULES {
+        // Two nodes more, r^-4 less.
         while nodes < 2 * rule.len() {
             remainder = remainder * ratio;
             nodes += 2;
@@ -107,7 +112,7 @@ fn rule(ellipse: f64, bound: f64, radius: Interval<f64>, allowed: f64) -> Option
     None
 }
 
-/// An enclosure of the integral between `a` and `b`.
+/// Encloses the integral between `a` and `b`.
 pub(super) fn integrate(
     f: &impl Integrand,
     a: f64,
@@ -121,16 +126,18 @@ pub(super) fn integrate(
     let (centre, radius) = (half * (a + b), half * (b - a));
     let mut sum = Value::constant(0.0);
     for &(node, weight) in choice.rule {
+        // Scale 127: node and weight lie in a unit above the table's integers.
         let offset = radius * floored(node);
         let pair = f.evaluate(centre + offset) + f.evaluate(centre - offset);
         sum = sum + floored(weight) * pair;
     }
     let remainder = Value::constant(choice.remainder);
     *evaluations += 2 * choice.rule.len() as u64;
+    // The error term: ± the remainder.
     radius * sum + (-remainder).hull(remainder)
 }
 
-/// A number of which `value` is the floor, scale 127.
+/// Encloses a number of which `value` is the floor, scale 127.
 pub(super) fn floored(value: u128) -> Interval<Wide> {
     Interval::between(Wide::from_integer(value, -127), Wide::from_integer(value + 1, -127))
 }

@@ -14,14 +14,17 @@ mod search;
 use crate::error::Error;
 use crate::estimate::{Enclosure, Status};
 use crate::interval::{Interval, Toward, Wide};
+use crate::quadrature::Tolerance;
+use crate::quadrature::tolerance::Finest;
 use crate::real::Real;
 use crate::scalar::{Integrand, Scalar};
 use search::Search;
 
-/// The wanted width, and how much work it may take.
+/// Rigorous integration: the wanted width and the work it may take, and [`integrate`](Self::integrate).
 ///
-/// The result contains the integral whatever is asked for; a tolerance only says when to stop. The width is first
-/// that of the enclosure as computed, in 128 bits; rounding to `T` adds at most 1 ulp at each end.
+/// `∫ f(x) dx` over a finite interval, between two floats. The result contains the integral whatever is asked for; a
+/// tolerance only says when to stop. The width is first that of the enclosure as computed, in 128 bits; rounding to `T`
+/// adds at most 1 ulp at each end.
 ///
 /// ```
 /// use mean_information::quadrature::rigorous::Rigorous;
@@ -40,21 +43,13 @@ use search::Search;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rigorous<T> {
-    pub(crate) absolute: T,
-    pub(crate) relative: T,
-    pub(crate) limit: u64,
+    tolerance: Tolerance<T>,
+    limit: u64,
 }
 
-/// The finest relative tolerance, a 64th of the distance from 1 to the next float: then rounding to `T` makes the
-/// width.
-fn finest<T: Real>() -> T {
-    T::epsilon() * T::from_parts(1, -6)
-}
-
-/// The finest tolerance that `T` can tell, and a hundred thousand evaluations.
 impl<T: Real> Default for Rigorous<T> {
     fn default() -> Self {
-        Self { absolute: T::zero(), relative: finest(), limit: 100_000 }
+        Self::new()
     }
 }
 
@@ -68,37 +63,53 @@ pub(crate) struct Integral {
 }
 
 impl<T: Real> Rigorous<T> {
-    /// A width of at most `absolute`, or at most `relative` times the magnitude of the integral, whichever is larger.
-    ///
-    /// # Errors
-    /// [`Error::OutOfRange`] if `absolute` is not in `[0, inf)`, `relative` not in `[0, 1)`, or both are too small to
-    /// be reached: `absolute` is 0 and `relative` below a 64th of the distance from 1 to the next float.
-    pub fn new(absolute: T, relative: T) -> Result<Self, Error> {
-        if !(absolute >= T::zero() && absolute.is_finite()) {
-            return Err(Error::out_of_range("absolute tolerance", absolute.widen(), "0 or more, finite"));
-        }
-        if !(relative >= T::zero() && relative < T::one()) {
-            return Err(Error::out_of_range("relative tolerance", relative.widen(), "0 or more, below 1"));
-        }
-        if absolute.is_zero() && relative < finest() {
-            let allowed = "2^-58 or more (f32: 2^-29), unless there is an absolute tolerance";
-            return Err(Error::out_of_range("relative tolerance", relative.widen(), allowed));
-        }
-        Ok(Self { absolute, relative, ..Self::default() })
+    /// Returns the finest relative tolerance, a 64th of the distance from 1 to the next float: with it, rounding to `T`
+    /// makes the width (a 16th of the spacing below 1/2, where a limit of 1 minus the integral shows no more).
+    pub(crate) fn finest() -> T {
+        T::epsilon() * T::from_parts(1, -6)
     }
 
-    /// The same with a limit on the number of evaluations; some 20 are made in any case.
-    ///
-    /// # Errors
-    /// [`Error::OutOfRange`] if it is 0.
-    pub fn with_limit(self, evaluations: u64) -> Result<Self, Error> {
-        if evaluations == 0 {
+    /// Creates the settings of the finest tolerance that `T` can tell, and at most 100 000 evaluations.
+    pub fn new() -> Self {
+        Self { tolerance: Tolerance { absolute: T::zero(), relative: Self::finest() }, limit: 100_000 }
+    }
+
+    /// Sets the width relative to the magnitude of the integral: 0 for none, or from a 64th of the spacing of floats at
+    /// 1 (`2^-58` in `f64`, `2^-29` in `f32`) up to 1.
+    #[must_use]
+    pub fn relative(self, relative: T) -> Self {
+        Self { tolerance: Tolerance { relative, ..self.tolerance }, ..self }
+    }
+
+    /// Sets the absolute width, in units of the integral: 0 for none, or any positive number.
+    #[must_use]
+    pub fn absolute(self, absolute: T) -> Self {
+        Self { tolerance: Tolerance { absolute, ..self.tolerance }, ..self }
+    }
+
+    /// Sets the largest number of evaluations, 1 or more; some 20 are made in any case.
+    #[must_use]
+    pub fn limit(self, limit: u64) -> Self {
+        Self { limit, ..self }
+    }
+
+    /// Returns the tolerance that was asked for.
+    pub(crate) fn tolerance(&self) -> Tolerance<T> {
+        self.tolerance
+    }
+
+    /// Refuses settings that no result can meet.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        let allowed = "0, or from 2^-58 (f32: 2^-29) up to 1";
+        self.tolerance.check(&Finest { relative: Self::finest(), allowed })?;
+        if self.limit == 0 {
             return Err(Error::out_of_range("evaluation limit", 0.0, "1 or more"));
         }
-        Ok(Self { limit: evaluations, ..self })
+        Ok(())
     }
 
-    /// The integral of `f` from `from` to `to`: negative of the one from `to` to `from`, 0 if they are equal.
+    /// Encloses the integral of `f` from `from` to `to`: the negative of the one from `to` to `from`, 0 if they are
+    /// equal.
     ///
     /// `f` must be defined between the ends, but at single points. It is evaluated over intervals, and over
     /// rectangles of the complex plane, to prove that it is analytic there. Where it is not, as `√x` at 0, panels are
@@ -111,13 +122,29 @@ impl<T: Real> Rigorous<T> {
     /// [`Status::Unresolved`] does. The enclosure then has no bounds: `-inf` to `inf`.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if an end is not finite.
+    /// [`Error::OutOfRange`] if an end is not finite, or a setting not as its function says; also if both tolerances
+    /// are 0.
+    ///
+    /// ```
+    /// use mean_information::quadrature::rigorous::Rigorous;
+    /// use mean_information::scalar::{Integrand, Scalar};
+    /// struct Cube;
+    /// impl Integrand for Cube {
+    ///     fn evaluate<S: Scalar>(&self, x: S) -> S {
+    ///         x.clone() * x.clone() * x
+    ///     }
+    /// }
+    /// let quarter = Rigorous::new().relative(1e-6).integrate(&Cube, 0.0_f32, 3.0)?;
+    /// assert!(quarter.contains(20.25) && quarter.width() <= 2.1e-5);
+    /// # Ok::<(), mean_information::Error>(())
+    /// ```
     pub fn integrate(&self, f: &impl Integrand, from: T, to: T) -> Result<Enclosure<T>, Error> {
         for (what, end) in [("lower limit of the integral", from), ("upper limit of the integral", to)] {
             if !end.is_finite() {
                 return Err(Error::out_of_range(what, end.widen(), "finite"));
             }
         }
+        self.check()?;
         let integral = self.between_floats(f, from.widen(), to.widen());
         let (lower, upper) = (integral.value.lower(), integral.value.upper());
         Ok(Enclosure {
@@ -128,8 +155,8 @@ impl<T: Real> Rigorous<T> {
         })
     }
 
-    /// The integral between two ends that need not be floats: between the nearest ones, and two slivers of the first
-    /// degree.
+    /// Encloses the integral between two ends that need not be floats, by settings that were checked: between the
+    /// floats below them, and two slivers of the first degree.
     pub(crate) fn between(&self, f: &impl Integrand, from: Interval<Wide>, to: Interval<Wide>) -> Integral {
         let (near, sliver_from) = split(f, from);
         let (far, sliver_to) = split(f, to);
@@ -143,6 +170,7 @@ impl<T: Real> Rigorous<T> {
         Integral { value, evaluations, ..integral }
     }
 
+    /// Encloses the integral between two floats.
     fn between_floats(&self, f: &impl Integrand, from: f64, to: f64) -> Integral {
         if from > to {
             let reversed = self.between_floats(f, to, from);
@@ -152,11 +180,14 @@ impl<T: Real> Rigorous<T> {
             return Integral { value: Interval::constant(0.0), status: Status::Converged, evaluations: 0 };
         }
         let mut search = Search { f, from, to, evaluations: 0, limit: self.limit };
-        search.run(self.absolute.widen(), self.relative.widen())
+        search.run(Tolerance {
+            absolute: self.tolerance.absolute.widen(),
+            relative: self.tolerance.relative.widen(),
+        })
     }
 }
 
-/// The float nearest to `x`, and the integral from there to `x`.
+/// Returns the float below `x`, and the integral from there to `x`.
 fn split(f: &impl Integrand, x: Interval<Wide>) -> (f64, Interval<Wide>) {
     let near = x.lower().to_real::<f64>(Toward::Down);
     let start = Interval::constant(near);

@@ -7,9 +7,10 @@ use super::Integral;
 use super::gauss::{self, Chooser};
 use crate::estimate::Status;
 use crate::interval::{Endpoint, Interval, Toward, Wide};
+use crate::quadrature::Tolerance;
 use crate::scalar::{Integrand, Scalar};
 
-/// An integral under way.
+/// The state of a rigorous integration.
 pub(super) struct Search<'a, F> {
     pub(super) f: &'a F,
     pub(super) from: f64,
@@ -18,48 +19,49 @@ pub(super) struct Search<'a, F> {
     pub(super) limit: u64,
 }
 
-/// What the panels add up to.
+/// The sum over panels.
 struct Sum {
     value: Interval<Wide>,
-    /// The integral of the magnitude, about.
+    /// About the integral of the magnitude: what roundings are relative to.
     size: f64,
     status: Status<f64>,
 }
 
-/// What becomes of a panel.
+/// The fate of a panel.
 enum Panel {
-    /// Its integral; the status tells why it is no narrower.
+    /// Enclosed; the status tells why no narrower.
     Enclosed { value: Interval<Wide>, status: Status<f64> },
-    /// Its halves are next.
+    /// Cut at this point: its halves are next.
     Cut(f64),
-    /// Nothing is known of its integral.
+    /// Failed: nothing is known of its integral.
     Failed(Status<f64>),
 }
 
 /// The tolerance grows by this factor when evaluations run out.
 const LAXER: f64 = 4096.0;
-/// More evaluations than a panel takes: all rectangles, the longest rule, and a few ranges.
+/// A bound on the evaluations of a panel: all rectangles, the longest rule, and a few ranges.
 const MOST_EVALUATIONS: u64 = 72;
 /// A panel may take this share of the width that is left.
 const SHARE: f64 = 1.0 / 32.0;
 /// A panel narrower than this share of the whole is not cut any more.
 const NARROWEST: f64 = 1.0 / (1_u128 << 120) as f64;
-/// What sums in 128 bits can hold, relative to the integral of the magnitude: above their roundings.
+/// The finest width of sums in 128 bits relative to the integral of the magnitude, above their roundings: lemma (128
+/// bits).
 const ROUND_OFF: f64 = 1.0 / (1_u128 << 66) as f64;
 /// An estimate this much below the crudest bound is not trusted.
 const DOUBT: f64 = 1.0 / (1_u64 << 20) as f64;
 
 impl<F: Integrand> Search<'_, F> {
-    /// The integral, with a width of at most `absolute` or `relative` times its magnitude, if that can be.
-    pub(super) fn run(&mut self, absolute: f64, relative: f64) -> Integral {
-        let wanted = |magnitude: f64| absolute.max(relative * magnitude);
+    /// Encloses the integral, within the tolerance if that can be.
+    pub(super) fn run(&mut self, tolerance: Tolerance<f64>) -> Integral {
+        let wanted = |magnitude: f64| tolerance.of(magnitude);
         let mut target = wanted(self.estimate()).min(f64::MAX) / 4.0;
         let mut value = Interval::WHOLE;
         loop {
             // Half of the evaluations that are left: if they are too few, there are some for a laxer tolerance.
             let limit = self.evaluations + self.limit.saturating_sub(self.evaluations) / 2;
             let sum = self.pass(target, limit);
-            // Each contains the integral.
+            // Each contains the integral: theorem (enclosure).
             value = value.intersection(sum.value);
             let wanted = wanted(smallest_magnitude(value));
             let status = match sum.status {
@@ -77,7 +79,7 @@ impl<F: Integrand> Search<'_, F> {
         }
     }
 
-    /// About the magnitude of the integral: a tolerance to begin with.
+    /// Estimates the magnitude of the integral: a tolerance to begin with.
     pub(super) fn estimate(&mut self) -> f64 {
         let (centre, radius) = (0.5 * self.from + 0.5 * self.to, 0.5 * self.to - 0.5 * self.from);
         let mut sum = 0.0;
@@ -93,7 +95,7 @@ impl<F: Integrand> Search<'_, F> {
         radius * sum.abs().max(crude * DOUBT)
     }
 
-    /// The sum over panels, with a width of about `target`, from evaluations up to a limit.
+    /// Adds up the panels, with a width of about `target`, from evaluations up to a limit.
     fn pass(&mut self, target: f64, limit: u64) -> Sum {
         let mut left = target;
         let mut sum = Sum { value: Interval::constant(0.0), size: 0.0, status: Status::Converged };
@@ -117,8 +119,9 @@ impl<F: Integrand> Search<'_, F> {
         sum
     }
 
-    /// What to do with the panel from `a` to `b`, which may add `allowed` to the width.
+    /// Decides what to do with the panel from `a` to `b`, which may add `allowed` to the width.
     fn panel(&mut self, chooser: &mut Chooser, a: f64, b: f64, allowed: f64, limited: bool) -> Panel {
+        // 1. The width times the range: "Panels".
         let length = Interval::constant(b) - Interval::constant(a);
         let range: Interval<f64> = self.range(a, b);
         if range.is_empty() {
@@ -129,6 +132,7 @@ impl<F: Integrand> Search<'_, F> {
             let status = if width(strip) <= allowed { Status::Converged } else { Status::EvaluationLimit };
             return Panel::Enclosed { value: strip, status };
         }
+        // 2. A rule, half of whose share the remainder may take: theorem (remainder).
         if let Some(choice) = chooser.choose(self.f, a, b, allowed / 2.0, &mut self.evaluations) {
             let value = gauss::integrate(self.f, a, b, &choice, &mut self.evaluations);
             if value.is_empty() {
@@ -136,11 +140,13 @@ impl<F: Integrand> Search<'_, F> {
             }
             return Panel::Enclosed { value, status: Status::Converged };
         }
+        // 3. Two halves, unless roundings at one point make the range: lemma (128 bits).
         let middle = 0.5 * a + 0.5 * b;
         let can_be_cut = a < middle && middle < b && b - a > NARROWEST * self.to - NARROWEST * self.from;
         if can_be_cut && !self.is_noise(range, middle) {
             return Panel::Cut(middle);
         }
+        // In floats it is noise: once more in 128 bits.
         let range: Interval<Wide> = self.range(a, b);
         let strip = strip.intersection(length * range);
         if can_be_cut && width(strip) > allowed && !self.is_noise(range, middle) {
@@ -153,13 +159,13 @@ impl<F: Integrand> Search<'_, F> {
         Panel::Enclosed { value: strip, status: if can_be_cut { Status::Converged } else { unresolved } }
     }
 
-    /// The values of the integrand between `a` and `b`.
+    /// Encloses the values of the integrand between `a` and `b`.
     fn range<T: Endpoint>(&mut self, a: f64, b: f64) -> Interval<T> {
         self.evaluations += 1;
         self.f.evaluate(Interval::constant(a).hull(Interval::constant(b)))
     }
 
-    /// Whether roundings at one point make half of a range: then cutting does not help.
+    /// Returns true if roundings at one point make half of a range: then cutting does not help.
     fn is_noise<T: Endpoint>(&mut self, range: Interval<T>, x: f64) -> bool {
         if !range.is_bounded() {
             return false;
@@ -170,12 +176,12 @@ impl<F: Integrand> Search<'_, F> {
     }
 }
 
-/// The width, rounded up.
+/// Returns the width, rounded up.
 fn width(x: Interval<Wide>) -> f64 {
     x.width().to_real(Toward::Up)
 }
 
-/// The smallest magnitude, rounded down.
+/// Returns the smallest magnitude, rounded down.
 fn smallest_magnitude(x: Interval<Wide>) -> f64 {
     let [lower, upper] = [x.lower(), -x.upper()].map(|end| end.to_real::<f64>(Toward::Down));
     lower.max(upper).max(0.0)

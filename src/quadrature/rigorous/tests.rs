@@ -148,12 +148,12 @@ fn what_has_no_bound_is_named_as_closely_as_can_be() {
 fn the_limit_on_evaluations_is_kept() {
     for limit in (100..2000).step_by(37) {
         for to in [0.5, 30.0, 1e4] {
-            let rule = Rigorous::<f64>::new(0.0, 1e-15).unwrap().with_limit(limit).unwrap();
+            let rule = Rigorous::<f64>::new().relative(1e-15).limit(limit);
             let result = rule.integrate(&Peak { at: -1e-3 }, 0.0, to).unwrap();
             assert!(result.evaluations <= limit, "{limit}: {result:?}");
         }
         // A hundred panels towards 0, each of which is evaluated once more.
-        let rule = Rigorous::<f64>::new(1e-60, 0.0).unwrap().with_limit(limit).unwrap();
+        let rule = Rigorous::<f64>::new().absolute(1e-60).relative(0.0).limit(limit);
         let result = rule.integrate(&Root, 0.0, 3.0).unwrap();
         assert!(result.evaluations <= limit, "{limit}: {result:?}");
     }
@@ -184,11 +184,11 @@ impl Integrand for Kinks {
 #[test]
 fn what_cancels_is_integrated_again() {
     for relative in [1e-2, 1e-3, 1e-6, 1e-9] {
-        let result = Rigorous::<f64>::new(0.0, relative).unwrap().integrate(&Offset, -2.0, 2.0).unwrap();
+        let result = Rigorous::<f64>::new().relative(relative).integrate(&Offset, -2.0, 2.0).unwrap();
         assert_eq!(result.status, Status::Converged, "{result:?}");
         assert!(result.contains(4e-9) && result.width() <= 4.1e-9 * relative, "{result:?}");
     }
-    let kinks = Rigorous::<f64>::new(0.0, 1e-2).unwrap().integrate(&Kinks, -2.0, 2.0).unwrap();
+    let kinks = Rigorous::<f64>::new().relative(1e-2).integrate(&Kinks, -2.0, 2.0).unwrap();
     assert_eq!(kinks.status, Status::Converged, "{kinks:?}");
 }
 

@@ -140,10 +140,9 @@ impl Arguments {
         let weight = self.weight.into();
         let evaluations = self.evaluations.unwrap_or(100_000);
         if self.method == Method::Rigorous {
-            let rules = tolerance.map_or(Ok(Rigorous::default()), |relative| {
-                Rigorous::new(M::Float::nearest(0.0), relative)
-            })?;
-            return limit::rigorous(model, weight, &rules.with_limit(evaluations)?).map(Computed::from);
+            let rules = Rigorous::new().limit(evaluations);
+            let rules = tolerance.map_or(rules, |relative| rules.relative(relative));
+            return limit::rigorous(model, weight, &rules).map(Computed::from);
         }
         let rules = GaussKronrod::new().limit(evaluations);
         let rules = tolerance.map_or(rules, |relative| rules.relative(relative));

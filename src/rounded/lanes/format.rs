@@ -1,4 +1,4 @@
-//! What the kernel does differently in `f32` and `f64`.
+//! The formats of the kernel's lanes: what differs between `f32` and `f64`, and the operations on their bits.
 
 use crate::real::Real;
 
@@ -7,42 +7,42 @@ pub(super) const CELL_BITS: u32 = 7;
 /// The centres of one half of the table, a power of two so that an index is a mask.
 pub(super) const HALF: usize = 2048;
 
-/// A format of floats and the integer of its bits, one lane of a vector.
+/// Names a format of floats and the integer of its bits: one lane of a vector.
 pub(crate) trait Lane: Real {
-    /// The integer that holds the bits of a float.
+    /// Holds the bits of a float.
     type Word: Copy + Default + core::fmt::Debug + Send + Sync + 'static;
-    /// Distances below `2^-BINADES` have no centre.
+    /// Bounds the table: distances below `2^-BINADES` have no centre.
     const BINADES: i32;
-    /// Information at distances from unknown below `2^-NEAREST` has bits below those of the sums.
+    /// Bounds the sums: information at distances from unknown below `2^-NEAREST` has bits below theirs.
     const NEAREST: i32;
-    /// The coefficients of the polynomial.
+    /// Counts the coefficients of the polynomial.
     const TERMS: usize;
-    /// A bound on the error before rounding, relative to the value that is summed up: see the chapter on sums.
+    /// Bounds the error before rounding, relative to the value that is summed up: theorem (blocks), *Error*.
     const ERROR: Self;
 
-    /// The centre of the cell of the table in which `x` in `[2^-BINADES, 1/2]` lies, and the cell's number in its
-    /// half. Any pair, the number below [`HALF`], for other `x`.
+    /// Returns the centre of the table's cell in which `x` in `[2^-BINADES, 1/2]` lies, and the cell's number in its
+    /// half. Returns any pair, the number below [`HALF`], for other `x`.
     fn centre(x: Self) -> (Self, u32);
 
-    /// The centre of the cell of a number; `None` beyond the last.
+    /// Returns the centre of the cell of a number; `None` beyond the last.
     fn centre_of(number: usize) -> Option<Self>;
 
-    /// Two floats of few bits in one word.
+    /// Packs two floats of few bits into one word: the slope's rest into the last bits of the value's.
     fn pack(value: Self, slope: Self) -> Self::Word;
 
-    /// The floats of [`Lane::pack`], the first with noise in its last bits.
+    /// Returns the floats of [`Lane::pack`], the first with the second's bits as noise in its last ones.
     fn unpack(word: Self::Word) -> (Self, Self);
 
-    /// The float cut to 9 bits.
+    /// Cuts the float to 9 bits, towards zero.
     fn head(self) -> Self;
 
-    /// `a b + c`, rounded once.
+    /// Computes `a b + c`, rounded once.
     fn fused(a: Self, b: Self, c: Self) -> Self;
 
     /// Adds the bits of a float to a sum of bits.
     fn add_bits(sum: Self::Word, x: Self) -> Self::Word;
 
-    /// A sum of the bits of `count` floats `origin + k ulp`, taken apart: the sum of the `k`.
+    /// Returns the sum of the `k` from a sum of the bits of `count` floats `origin + k ulp`.
     fn ulps(sum: Self::Word, origin: Self, count: usize) -> i64;
 }
 
@@ -57,9 +57,12 @@ macro_rules! impl_lane {
 
             #[inline(always)]
             fn centre(x: Self) -> (Self, u32) {
+                // Series: the bits of a binade's cell are the leading ones of the significand.
                 const BELOW: u32 = $float::PRECISION - 1 - CELL_BITS;
                 const FIRST: $word = (($float::MAX_EXP - 1 - $binades) as $word) << CELL_BITS;
+                // Exponent and cell together count the cells from the first binade on.
                 let cell = x.to_bits() >> BELOW;
+                // The half of a cell is one bit more: 9 bits, so that `x - c` is exact.
                 let centre = Self::from_bits(x.to_bits() & !((1 << BELOW) - 1) | 1 << (BELOW - 1));
                 (centre, cell.wrapping_sub(FIRST) as u32 & (HALF as u32 - 1))
             }
@@ -74,8 +77,9 @@ macro_rules! impl_lane {
             fn pack(value: Self, slope: Self) -> $word {
                 const LOW: $word = (1 << $slope) - 1;
                 const DOWN: u32 = 8 * size_of::<$word>() as u32 - $slope;
+                // Error, slope: to the nearest of 13 bits, in `f32` of 4.
                 let slope = (slope.to_bits() >> (DOWN - 1)).div_ceil(2);
-                // Of the words with these bits, the nearest.
+                // Error, value: to 29 bits, in `f32` 12. Of the words with these last bits, the nearest.
                 let below = value.to_bits() & !LOW | slope;
                 let beside = [below, below.wrapping_sub(LOW + 1), below.wrapping_add(LOW + 1)];
                 let distance = |word: &$word| ($float::from_bits(*word) - value).abs();
@@ -90,6 +94,7 @@ macro_rules! impl_lane {
 
             #[inline(always)]
             fn head(self) -> Self {
+                // Error, slope: 9 bits, since `x - c` has the others.
                 const BELOW: u32 = $float::PRECISION - 9;
                 Self::from_bits(self.to_bits() & !((1 << BELOW) - 1))
             }
@@ -101,6 +106,7 @@ macro_rules! impl_lane {
 
             #[inline(always)]
             fn add_bits(sum: $word, x: Self) -> $word {
+                // Sums: within one binade bits are multiples of the ulp, and wrapping loses nothing.
                 sum.wrapping_add(x.to_bits())
             }
 

@@ -1,37 +1,40 @@
-//! The sums of entropy and information over a block of cells.
+//! The kernel: entropy and information of a block of cells, and their exact sums.
+//!
+//! `V(c + h) = V(c) + h V'(c) + h y E(b, y)` about the centre `c` of a cell of the table, and a rounding test. The bounds
+//! are those of theorem (blocks) in the chapter [`sums`](crate::book::sums), whose paragraphs the comments name.
 
 use super::format::Lane;
 use super::table::{self, Rows, Table};
 use crate::rounded::mean::Fixed;
 
-/// The cells that are summed up at once: so few that no sum of bits overflows.
+/// Counts the cells that are summed up at once: so few that no sum of bits overflows.
 pub(crate) const BLOCK: usize = 256;
 
-/// What became of a cell.
+/// Marks what became of a cell.
 mod mark {
-    /// In no sum: not decided, beyond the table, or no probability.
+    /// Marks a cell in no sum: not decided, beyond the table, or no probability.
     pub(super) const OPEN: u8 = 0;
-    /// In the sums, below 1/2; without entropies, or above.
+    /// Marks a cell in the sums, below 1/2; without entropies, or above.
     pub(super) const FREE: u8 = 1;
     pub(super) const OCCUPIED: u8 = 2;
     pub(super) const UNKNOWN: u8 = 3;
 }
 
-/// What a block of cells adds to a tally, but for those that are left open.
+/// Holds what a block of cells adds to a tally, except for those that are left open.
 #[derive(Debug)]
 pub(crate) struct Block {
-    /// The exact sum of the rounded entropies, or 0 without them.
+    /// Holds the exact sum of the rounded entropies, or 0 without them.
     pub(crate) entropy: Fixed,
-    /// The exact sum of the rounded information.
+    /// Holds the exact sum of the rounded information.
     pub(crate) information: Fixed,
     pub(crate) unknown: u64,
     pub(crate) free: u64,
-    /// Without entropies 0: they are among the free ones.
+    /// Counts the occupied cells; 0 without entropies, where they are among the free ones.
     pub(crate) occupied: u64,
     marks: [u8; BLOCK],
 }
 
-/// A sum of numbers in `[0, 1]` in integers: units of `2^(2 - PRECISION)`, and what is left, in as many bits below.
+/// Sums numbers in `[0, 1]` in integers: units of `2^(2 - PRECISION)`, and what is left, in as many bits below.
 #[derive(Clone, Copy)]
 struct Sum<T: Lane> {
     high: T::Word,
@@ -39,41 +42,46 @@ struct Sum<T: Lane> {
 }
 
 impl<T: Lane> Sum<T> {
-    /// Its ulp is `2^(2 - PRECISION)`, also above it, up to 4.
+    /// Returns 3, whose ulp is `2^(2 - PRECISION)`, as it is up to 4.
     #[inline(always)]
     fn high_origin() -> T {
         T::one() + T::one() + T::one()
     }
 
-    /// 3/2 ulps of [`Sum::high_origin`]: its own ulp is as far below as that is below 1.
+    /// Returns 3/2 ulps of [`Sum::high_origin`]: its own ulp is as far below as that is below 1.
     #[inline(always)]
     fn low_origin() -> T {
         (Self::high_origin() + Self::high_origin()) * T::epsilon()
     }
 
+    /// Creates an empty sum.
     fn new() -> Self {
         Self { high: T::Word::default(), low: T::Word::default() }
     }
 
+    /// Adds a number in `[0, 1]`, exactly.
     #[inline(always)]
     fn add(&mut self, x: T) {
+        // Sums: to a multiple of `2^(2 - PRECISION)`, the ulp of 3, which the bits then count.
         let high = x + Self::high_origin();
-        // What `high` has lost, from the low origin on: every step is exact.
+        // Sums: what `high` has lost, from the low origin on: every step is exact.
         let low = x - (high - (Self::high_origin() + Self::low_origin()));
         self.high = T::add_bits(self.high, high);
         self.low = T::add_bits(self.low, low);
     }
 
+    /// Returns the sum as an integer times a power of two.
     fn fixed(self) -> Fixed {
         let high = i128::from(T::ulps(self.high, Self::high_origin(), BLOCK));
         let low = i128::from(T::ulps(self.low, Self::low_origin(), BLOCK));
+        // Each of the two parts has units `2^-places` of the one above it.
         let places = T::PRECISION as i32 - 2;
         Fixed { value: ((high << places) + low) as u128, exponent: -2 * places }
     }
 }
 
 impl Block {
-    /// Those of its cells that are in no sum.
+    /// Returns the cells of the block that are in no sum.
     pub(crate) fn open<T: Copy>(&self, cells: &[T]) -> impl Iterator<Item = T> {
         // Eight at a time, since there are few.
         let eights = self.marks.as_chunks::<8>().0.iter().zip(cells.chunks(8));
@@ -83,7 +91,7 @@ impl Block {
         })
     }
 
-    /// Of the cells of the given occupancies, with their entropies or without.
+    /// Computes the sums over the cells of the given occupancies, with their entropies or without.
     ///
     /// With `FUSED`, some products and sums are rounded at once, which only pays where the target has an
     /// instruction for it. One loop without branches over arrays of fixed size: that is what compilers make vectors
@@ -96,7 +104,7 @@ impl Block {
         let rows = table.rows::<ENTROPY>();
         let (zero, one) = (T::zero(), T::one());
         let [nearest, least] = [T::NEAREST, T::BINADES].map(|binades| T::from_parts(1, -binades));
-        // What is below the precision of `1 - V`.
+        // Rounding test: `4 u^2`, for two roundings of the rest of `1 - V` by `u^2`.
         let tiny = T::epsilon() * T::epsilon();
         let mut marks = [mark::OPEN; BLOCK];
         let (mut entropy, mut information) = (Sum::new(), Sum::new());
@@ -105,19 +113,22 @@ impl Block {
             let q = if p < rest { p } else { rest };
             let double = q + q;
             let near = double > T::HALF;
-            // The distance from unknown, or twice that from certain; both exact.
+            // Distances: that from unknown, or twice that from certain; both exact.
             let x = if near { one - double } else { double };
             let least = if near { nearest } else { least };
             // Not 0 itself: subnormal numbers are slow.
             let inside = if x > least { x } else { least };
             let (head, tail) = value::<T, FUSED, ENTROPY>(&rows, inside, near);
+            // Rounding test: the value less and more the bound; every number between is nearest to the same float.
             let (below, above) =
                 (fused::<T, FUSED>(head, -T::ERROR, tail), fused::<T, FUSED>(head, T::ERROR, tail));
             let (value, value_above) = (head + below, head + above);
+            // Domain: nearer to 0 there is no cell of the table.
             let mut done = (x >= least) & (value == value_above);
-            // Certain or unknown, where the distance is 0.
+            // Domain: certain or unknown, where the distance is 0 and the answer exact.
             let edge = x.is_zero();
             if ENTROPY {
+                // Rounding test of `1 - V`: Dekker's sum, what `1 - head` has lost goes to the rest.
                 let complement = one - head;
                 let rest = (one - complement) - head;
                 let (other, other_above) =
@@ -154,13 +165,13 @@ impl Block {
     }
 }
 
-/// `a b + c`, in one step or in two.
+/// Computes `a b + c`, in one step or in two.
 #[inline(always)]
 fn fused<T: Lane, const FUSED: bool>(a: T, b: T, c: T) -> T {
     if FUSED { T::fused(a, b, c) } else { a * b + c }
 }
 
-/// `V` at the distance `x`, as a float and a rest of at most `2^-15` of it.
+/// Computes `V` at the distance `x`, as a float and a rest of at most `2^-14.2` of it.
 ///
 /// With `h = x - c` the Taylor series about the centre, `V = V_c + s h + h y E(b, y)`: `y = ∓h / (2 q (1 - q))`, `b
 /// = ∓(1 - 2q)`, and `E = 1/(2 ln 2) sum of e_k y^k`, whose coefficients are polynomials in `b`.
@@ -175,8 +186,10 @@ pub(super) fn value<T: Lane, const FUSED: bool, const ENTROPY: bool>(
     let row = table::row::<ENTROPY>(number, near);
     let (value, slope, inverse) = (rows.value[row], rows.slope[row], rows.inverse[row]);
     let (value_low, slope_low) = T::unpack(rows.low[row]);
+    // Series: exact, since `x` and `c` agree in their leading bits.
     let h = x - c;
     let y = h * inverse;
+    // Series: exact, since a centre is a multiple of `2^-24`.
     let b = if near {
         -c
     } else if ENTROPY {
@@ -185,29 +198,32 @@ pub(super) fn value<T: Lane, const FUSED: bool, const ENTROPY: bool>(
         T::one() - c
     };
     let series = series::<T, FUSED>(b, y);
-    // The product of slope and h, exactly.
+    // Error, slope: the product of slope and `h` and what it loses; not fused, the second is rounded at `2^-14.9 V`.
     let (first, second) = if FUSED {
         let first = slope * h;
         (first, T::fused(slope, h, -first))
     } else {
         (slope.head() * h, (slope - slope.head()) * h)
     };
+    // Error, sums: Dekker's fast sum, since `|first| < 2^-6.9 V`; what `head` has lost goes to the rest.
     let head = value + first;
     let lost = (value - head) + first;
+    // Error, `R` and sums: from here on all is at most `2^-14.2 V`, and each operation rounds by `u` of that.
     (head, fused(h * y, series, fused(slope_low, h, second)) + (lost + value_low))
 }
 
-/// `E(b, y)`, see [`value`].
+/// Computes `E(b, y)`, see [`value`]: the coefficients of the chapter, even and odd ones apart.
 #[inline(always)]
 pub(super) fn series<T: Lane, const FUSED: bool>(b: T, y: T) -> T {
     let fused = fused::<T, FUSED>;
-    // 1/(2 ln 2) times 1/2, -1/6 and so on.
+    // Series: 1/(2 ln 2) times 1/2, -1/6 and so on.
     let unit = |numerator: f64, denominator: f64| {
         T::nearest(numerator / denominator / (2.0 * core::f64::consts::LN_2))
     };
     let (bb, yy, by) = (b * b, y * y, b * y);
     let mut even = fused(bb, unit(3.0, 48.0), unit(1.0, 48.0));
     let mut odd = unit(-1.0, 6.0);
+    // Error, terms left out: the series ends with `y^5`, in `f32` with `y^2`.
     if T::TERMS > 3 {
         let e3 = fused(bb, unit(-1.0, 40.0), unit(-1.0, 40.0));
         let e4 = fused(bb, fused(bb, unit(5.0, 480.0), unit(10.0, 480.0)), unit(1.0, 480.0));
@@ -215,5 +231,6 @@ pub(super) fn series<T: Lane, const FUSED: bool>(b: T, y: T) -> T {
         even = fused(yy, e4, even);
         odd = fused(yy, fused(yy, e5, e3), odd);
     }
+    // Error, `R`: `|y| < 2^-8` and `1/2` leads, so that only the last two operations round by `u` of the sum.
     fused(by, odd, fused(yy, even, unit(1.0, 2.0)))
 }

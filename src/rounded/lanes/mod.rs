@@ -21,7 +21,7 @@ use multiversion::target::target_cfg_f;
 use std::sync::LazyLock;
 use table::Table;
 
-/// The sums over a block of occupancies, by the widest vector unit at hand.
+/// Sums entropy and information over a block of occupancies, by the widest vector unit at hand.
 pub(crate) fn sums<T: Real>(cells: &[T; BLOCK]) -> Block {
     match T::floats(cells) {
         Floats::Single(cells) => single::sums(cells),
@@ -29,7 +29,7 @@ pub(crate) fn sums<T: Real>(cells: &[T; BLOCK]) -> Block {
     }
 }
 
-/// Those of information only.
+/// Sums the information over a block of occupancies, without entropies.
 pub(crate) fn information<T: Real>(cells: &[T; BLOCK]) -> Block {
     match T::floats(cells) {
         Floats::Single(cells) => single::information(cells),
@@ -37,7 +37,7 @@ pub(crate) fn information<T: Real>(cells: &[T; BLOCK]) -> Block {
     }
 }
 
-/// The kernels for a format, each compiled for several vector units, of which the widest is taken that the
+/// Defines the kernels for a format, each compiled for several vector units, of which the widest is taken that the
 /// processor has: AVX-512 from Ice Lake and Zen 4 on (`multiversion` asks for their extensions, since older ones
 /// run slower with it).
 macro_rules! dispatch {
@@ -45,7 +45,7 @@ macro_rules! dispatch {
         mod $format {
             use super::*;
 
-            /// Made when first needed.
+            /// Holds the table of the format, made when first needed.
             static TABLE: LazyLock<Table<$float>> = LazyLock::new(Table::new);
 
             dispatch!(sums, $float, true);

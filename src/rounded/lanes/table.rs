@@ -1,4 +1,4 @@
-//! Value and slope at the centres, to twice the precision.
+//! The table: value and slope of entropy and information at the centres, to twice the precision.
 
 use super::format::{HALF, Lane};
 use crate::rounded::constants::INV_LN2;
@@ -9,7 +9,7 @@ use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::iter::repeat_n;
 
-/// What the kernels know of a centre `c`, in three thirds: of the entropy at `q = c / 2`, of the information at the
+/// Holds what the kernels know of a centre `c`, in three thirds: of the entropy at `q = c / 2`, of the information at the
 /// distance `c` from unknown, and of the information at `q = c / 2`. A kernel needs two that are next to each other.
 ///
 /// Four arrays, since one load of a vector unit gathers from one array.
@@ -20,19 +20,20 @@ pub(crate) struct Table<T: Lane> {
     inverse: Box<[T; 3 * HALF]>,
 }
 
-/// The two thirds of a [`Table`] that a kernel needs.
+/// Refers to the two thirds of a [`Table`] that a kernel needs.
 pub(super) struct Rows<'a, T: Lane> {
-    /// The value `V`, rounded.
+    /// Holds the value `V`, rounded.
     pub(super) value: &'a [T; 2 * HALF],
-    /// `dV/dc`, rounded.
+    /// Holds the slope `dV/dc`, rounded.
     pub(super) slope: &'a [T; 2 * HALF],
-    /// What rounding took from both.
+    /// Holds what rounding took from both, packed into one word.
     pub(super) low: &'a [T::Word; 2 * HALF],
-    /// `1 / (2 q (1 - q))` with the sign of the curvature of `V`.
+    /// Holds `1 / (2 q (1 - q))` with the sign of the curvature of `V`.
     pub(super) inverse: &'a [T; 2 * HALF],
 }
 
 impl<T: Lane> Table<T> {
+    /// Computes the table of a format.
     pub(super) fn new() -> Self {
         let mut rows: Vec<Row<T>> = repeat_n(Row::default(), 3 * HALF).collect();
         for (k, c) in (0..HALF).map_while(T::centre_of).enumerate() {
@@ -48,7 +49,7 @@ impl<T: Lane> Table<T> {
         }
     }
 
-    /// Those for a kernel with entropies or without.
+    /// Returns the rows for a kernel with entropies or without.
     #[inline(always)]
     pub(super) fn rows<const ENTROPY: bool>(&self) -> Rows<'_, T> {
         Rows {
@@ -60,19 +61,20 @@ impl<T: Lane> Table<T> {
     }
 }
 
-/// The row of a centre by its number among those near unknown or among the others.
+/// Returns the row of a centre by its number among those near unknown or among the others.
 #[inline(always)]
 pub(super) fn row<const ENTROPY: bool>(number: u32, near: bool) -> usize {
     (number + if near == ENTROPY { HALF as u32 } else { 0 }) as usize % (2 * HALF)
 }
 
-/// The first two, or the last.
+/// Returns the first two thirds, or the last two.
 #[inline(always)]
 fn two_thirds<X, const FIRST: bool>(all: &[X; 3 * HALF]) -> &[X; 2 * HALF] {
     let two = if FIRST { all.first_chunk() } else { all.last_chunk() };
     two.expect("three thirds have two")
 }
 
+/// Holds one row of the table.
 #[derive(Clone, Copy, Default)]
 struct Row<T: Lane> {
     value: T,
@@ -82,18 +84,19 @@ struct Row<T: Lane> {
 }
 
 impl<T: Lane> Row<T> {
-    /// Of the entropy, which is concave, and of the information, which falls, at `q = c / 2`.
+    /// Computes the rows of the entropy, which is concave, and of the information, which falls, at `q = c / 2`.
     fn small(c: T) -> [Self; 2] {
         let ((entropy, information), slope, inverse) = around(c.widen() / 2.0);
         [Self::new(entropy, slope, -inverse, false), Self::new(information, slope, inverse, true)]
     }
 
-    /// Of the information at the distance `c` from unknown.
+    /// Computes the row of the information at the distance `c` from unknown.
     fn near(c: T) -> Self {
         let ((_, information), slope, inverse) = around((1.0 - c.widen()) / 2.0);
         Self::new(information, slope, inverse, false)
     }
 
+    /// Rounds a row: each of value and slope to a float and its rest.
     fn new(value: Fixed, slope: Fixed, inverse: f64, falls: bool) -> Self {
         let (value, value_low) = pair(value);
         let (slope, slope_low) = pair::<T>(slope);
@@ -102,22 +105,24 @@ impl<T: Lane> Row<T> {
     }
 }
 
-/// Entropy and information at `q`, the magnitude of their slopes, and that of their curvature's factor. `q` is exact: a
-/// centre has few bits.
+/// Computes entropy and information at `q`, the magnitude of their slopes, and that of their curvature's factor. `q` is
+/// exact: a centre has few bits.
 fn around(q: f64) -> (Both, Fixed, f64) {
     let (m, e) = crate::rounded::normalised(q);
     let (entropy, information) = enclose::from_occupancy(m, e);
-    // |dV/dq| = |l| / ln 2, and dq/dc = ±1/2.
+    // Series: |dV/dq| = |l| / ln 2, and dq/dc = ±1/2: the scale 127 of the constant, of which 128 are dropped.
     let magnitude = log_odds::magnitude(m, -e);
     let slope = Fixed { value: mul_high(magnitude.value, INV_LN2), exponent: magnitude.exponent };
+    // Error, `v(c)`: the middle of an enclosure. Products of `q` are exact, so the quotient is rounded once.
     ((mean::middle(entropy), mean::middle(information)), slope, 0.5 / (q * (1.0 - q)))
 }
 
-/// The nearest float, and the float nearest to what is left.
+/// Returns the nearest float, and the float nearest to what is left.
 fn pair<T: Lane>(x: Fixed) -> (T, T) {
     let nearest: T = round_integer(x.value, x.exponent, false);
     let (m, e) = nearest.parts();
     let units = u128::from(m) << (e - x.exponent);
+    // Error, `v(c)` and `v'(c)`: exact at the scale of `x`, then rounded to a float, of which `pack` keeps the leading bits.
     let rest: T = round_integer(x.value.abs_diff(units), x.exponent, false);
     (nearest, if x.value < units { -rest } else { rest })
 }

@@ -11,8 +11,8 @@ use core::ops::Neg;
 use super::endpoint::sealed::Sealed;
 use super::{Endpoint, Interval, Toward, max, min};
 use crate::real::Real;
-use crate::rounded::extended::{self, LN_2};
-use crate::rounded::{Enclosure, mul_high, reciprocal, square_root};
+use crate::rounded::wide_elementary::{self, LN_2};
+use crate::rounded::{FixedEnclosure, mul_high, reciprocal, square_root};
 use Toward::{Down, Up};
 
 /// `±m 2^e` with `m` in `[2^127, 2^128)`, or 0 with `m = e = 0`, or `±inf` with `e = i32::MAX`.
@@ -221,7 +221,7 @@ impl Endpoint for Wide {
         }
         // |x| < 2^10
         if self.e <= 10 - 128 {
-            let power = enclosed(extended::exp(self.m, self.e, self.negative));
+            let power = enclosed(wide_elementary::exp(self.m, self.e, self.negative));
             let side = if self.negative {
                 Interval::between(Self::ZERO, Self::ONE)
             } else {
@@ -249,7 +249,7 @@ impl Endpoint for Wide {
                 return ln_1p(z);
             }
         }
-        let (magnitude, below_one) = extended::ln(self.m, self.e);
+        let (magnitude, below_one) = wide_elementary::ln(self.m, self.e);
         let magnitude = enclosed(magnitude);
         if below_one { -magnitude } else { magnitude }
     }
@@ -323,7 +323,7 @@ fn ln_1p(z: Wide) -> Interval<Wide> {
     if z.is_zero() {
         return Interval::point(Wide::ZERO);
     }
-    Interval::point(z) * enclosed(extended::ln_1p_over(z.m, z.e, z.negative))
+    Interval::point(z) * enclosed(wide_elementary::ln_1p_over(z.m, z.e, z.negative))
 }
 
 impl<T: Real> From<T> for Wide {
@@ -344,7 +344,7 @@ impl<T: Real> From<Interval<T>> for Interval<Wide> {
 }
 
 /// An enclosure by integers.
-fn enclosed(value: Enclosure) -> Interval<Wide> {
+fn enclosed(value: FixedEnclosure) -> Interval<Wide> {
     let end = |m| Wide::from_integer(m, value.exponent);
     Interval { lower: end(value.lo), upper: end(value.lo + value.width) }
 }

@@ -16,9 +16,9 @@ pub use information::Information;
 
 use crate::cell::{Cell, State};
 use crate::real::Real;
+use crate::rounded::beyond_float::Both;
 #[cfg(feature = "std")]
 use crate::rounded::lanes;
-use crate::rounded::mean::Both;
 use core::borrow::Borrow;
 use core::iter::Sum;
 use core::marker::PhantomData;

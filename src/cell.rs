@@ -6,22 +6,22 @@
 
 use crate::error::Error;
 use crate::real::Real;
-use crate::rounded::{self, Bits};
+use crate::rounded::{self, CellEnclosures};
 use core::cmp::Ordering;
 
-/// What the map says of a cell. The paper calls a cell observed if `p != 1/2`.
+/// The state of a cell in a map. The paper calls a cell observed if `p != 1/2`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum State {
-    /// `p = 1/2` exactly: nothing is known.
+    /// The state at `p = 1/2` exactly: nothing is known.
     Unknown,
-    /// Observed, `p < 1/2`.
+    /// The state at `p < 1/2`: observed.
     Free,
-    /// Observed, `p > 1/2`.
+    /// The state at `p > 1/2`: observed.
     Occupied,
 }
 
 impl State {
-    /// On which side of "unknown" a number lies that is not NaN.
+    /// Returns the state of a number that is not NaN, by the side of `unknown` on which it lies.
     fn beside<T: Real>(x: T, unknown: T) -> Self {
         match x.partial_cmp(&unknown) {
             Some(Ordering::Less) => Self::Free,
@@ -31,7 +31,7 @@ impl State {
     }
 }
 
-/// One cell as the sums over a map see it: its state, entropy and information.
+/// A cell as the sums over a map see it: its state, entropy and information.
 ///
 /// ```
 /// use mean_information::cell::{Cell, State};
@@ -49,12 +49,12 @@ pub struct Cell<T> {
 }
 
 impl<T: Real> Cell<T> {
-    /// An unobserved cell: `p = 1/2`, 1 bit of entropy, no information.
+    /// Creates an unobserved cell: `p = 1/2`, 1 bit of entropy, no information.
     pub fn unknown() -> Self {
         Self { state: State::Unknown, entropy: T::one(), information: T::zero() }
     }
 
-    /// The cell of occupancy `p`; entropy and information are those of [`entropy`] and [`information`].
+    /// Creates a cell of occupancy `p`; entropy and information are those of [`entropy`] and [`information`].
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if `p` is NaN or outside `[0, 1]`.
@@ -62,10 +62,10 @@ impl<T: Real> Cell<T> {
         if !in_unit_interval(p) {
             return Err(Error::out_of_range("occupancy", p.widen(), "0 to 1"));
         }
-        Ok(Self::new(State::beside(p, T::HALF), &Bits::at_occupancy(p)))
+        Ok(Self::new(State::beside(p, T::HALF), &CellEnclosures::at_occupancy(p)))
     }
 
-    /// The cell of log-odds `l` (nats); entropy and information are those of [`entropy_from_log_odds`] and
+    /// Creates a cell of log-odds `l` (nats); entropy and information are those of [`entropy_from_log_odds`] and
     /// [`information_from_log_odds`]. It is unknown if and only if `l` is zero, however small `l` is.
     ///
     /// # Errors
@@ -87,35 +87,36 @@ impl<T: Real> Cell<T> {
                 "any number of nats, infinities included",
             ));
         }
-        Ok(Self::new(State::beside(l, T::zero()), &Bits::at_log_odds(l)))
+        Ok(Self::new(State::beside(l, T::zero()), &CellEnclosures::at_log_odds(l)))
     }
 
-    fn new(state: State, bits: &Bits) -> Self {
-        Self { state, entropy: bits.entropy(), information: bits.information() }
+    /// Creates a cell from its state and its enclosures, which are rounded here.
+    fn new(state: State, enclosures: &CellEnclosures) -> Self {
+        Self { state, entropy: enclosures.entropy(), information: enclosures.information() }
     }
 
-    /// Unknown, free or occupied.
+    /// Returns the state: unknown, free or occupied.
     pub fn state(&self) -> State {
         self.state
     }
 
-    /// `H`, in bits.
+    /// Returns the entropy `H`, in bits.
     pub fn entropy(&self) -> T {
         self.entropy
     }
 
-    /// `I = 1 - H`, in bits.
+    /// Returns the information `I = 1 - H`, in bits.
     pub fn information(&self) -> T {
         self.information
     }
 }
 
-/// Whether `p` is a probability; false for NaN.
+/// Returns true if `p` is a probability; false for NaN.
 pub(crate) fn in_unit_interval<T: Real>(p: T) -> bool {
     p >= T::zero() && p <= T::one()
 }
 
-/// The entropy `H(p) = -p log2 p - (1-p) log2 (1-p)` of a cell of occupancy `p`, in bits (Eq. 1 in base 2).
+/// Computes the entropy `H(p) = -p log2 p - (1-p) log2 (1-p)` of a cell of occupancy `p`, in bits (Eq. 1 in base 2).
 ///
 /// Correctly rounded: the result is the floating-point number nearest to the exact `H(p)`; ties cannot occur
 /// (proved, [`rounding`](crate::book::rounding)).
@@ -129,10 +130,10 @@ pub(crate) fn in_unit_interval<T: Real>(p: T) -> bool {
 /// assert!(entropy(1.5_f32).is_nan());
 /// ```
 pub fn entropy<T: Real>(p: T) -> T {
-    if in_unit_interval(p) { Bits::at_occupancy(p).entropy() } else { T::nan() }
+    if in_unit_interval(p) { CellEnclosures::at_occupancy(p).entropy() } else { T::nan() }
 }
 
-/// The information `I(p) = 1 - H(p)` of a cell of occupancy `p`, in bits (Eq. 3).
+/// Computes the information `I(p) = 1 - H(p)` of a cell of occupancy `p`, in bits (Eq. 3).
 ///
 /// Correctly rounded: the result is the floating-point number nearest to the exact `I(p)`, also near `p = 1/2`,
 /// where `1 - H(p)` computed in floating point has no correct digit; ties cannot occur
@@ -147,10 +148,10 @@ pub fn entropy<T: Real>(p: T) -> T {
 /// assert_eq!(information(0.5 + f64::EPSILON / 2.0), 3.5565178622297884e-32);
 /// ```
 pub fn information<T: Real>(p: T) -> T {
-    if in_unit_interval(p) { Bits::at_occupancy(p).information() } else { T::nan() }
+    if in_unit_interval(p) { CellEnclosures::at_occupancy(p).information() } else { T::nan() }
 }
 
-/// The entropy of a cell of log-odds `l` (nats), in bits: `(ln(1 + e^-|l|) + |l| / (1 + e^|l|)) / ln 2`.
+/// Computes the entropy of a cell of log-odds `l` (nats), in bits: `(ln(1 + e^-|l|) + |l| / (1 + e^|l|)) / ln 2`.
 ///
 /// Correctly rounded, under the condition on ties stated in [`rounding`](crate::book::rounding).
 ///
@@ -161,10 +162,10 @@ pub fn information<T: Real>(p: T) -> T {
 /// assert_eq!(entropy_from_log_odds(2.0_f64), 0.5270653410031616);
 /// ```
 pub fn entropy_from_log_odds<T: Real>(l: T) -> T {
-    if l.is_nan() { l } else { Bits::at_log_odds(l).entropy() }
+    if l.is_nan() { l } else { CellEnclosures::at_log_odds(l).entropy() }
 }
 
-/// The information of a cell of log-odds `l` (nats), in bits: `1 - H`, see [`entropy_from_log_odds`].
+/// Computes the information of a cell of log-odds `l` (nats), in bits: `1 - H`, see [`entropy_from_log_odds`].
 ///
 /// Correctly rounded, under the condition on ties stated in [`rounding`](crate::book::rounding).
 ///
@@ -175,10 +176,10 @@ pub fn entropy_from_log_odds<T: Real>(l: T) -> T {
 /// assert_eq!(information_from_log_odds(2.0_f64), 0.4729346589968384);
 /// ```
 pub fn information_from_log_odds<T: Real>(l: T) -> T {
-    if l.is_nan() { l } else { Bits::at_log_odds(l).information() }
+    if l.is_nan() { l } else { CellEnclosures::at_log_odds(l).information() }
 }
 
-/// The occupancy `p = 1 / (1 + e^-l)` of a cell of log-odds `l` (nats).
+/// Computes the occupancy `p = 1 / (1 + e^-l)` of a cell of log-odds `l` (nats).
 ///
 /// Correctly rounded: ties cannot occur, since `e^l` is transcendental for every float `l != 0` (Lindemann; proved,
 /// [`rounding`](crate::book::rounding)).
@@ -193,7 +194,7 @@ pub fn occupancy_from_log_odds<T: Real>(l: T) -> T {
     if l.is_nan() { l } else { rounded::occupancy_from_log_odds(l) }
 }
 
-/// The log-odds `l = ln(p / (1 - p))` of a cell of occupancy `p`, in nats.
+/// Computes the log-odds `l = ln(p / (1 - p))` of a cell of occupancy `p`, in nats.
 ///
 /// Correctly rounded: ties cannot occur, since `e^l` is transcendental for every float `l != 0` (Lindemann; proved,
 /// [`rounding`](crate::book::rounding)).

@@ -1,13 +1,13 @@
 //! The elementary functions that the rest of the crate is built on, correctly rounded and the same on every platform.
 //!
-//! They use the kernels of the entropy ([`rounding`](crate::book::rounding)). No ties: `e^x` and `ln x` are transcendental
-//! for every algebraic `x` but 0 and 1 (Lindemann), and a square root that lies on a midpoint would have a square with too many
-//! bits to be a float.
+//! They use the kernels of the entropy ([`rounding`](crate::book::rounding)). No ties: `e^x` and `ln x` are
+//! transcendental for every algebraic `x` but 0 and 1 (Lindemann), and a square root that lies on a midpoint would have
+//! a square with too many bits to be a float.
 
 use crate::real::Real;
 use crate::rounded;
 
-/// `e^x`, correctly rounded (proved, [`rounding`](crate::book::rounding)).
+/// Computes `e^x`, correctly rounded (proved, [`rounding`](crate::book::rounding)).
 ///
 /// Special cases: 0 at `-inf`, `inf` at `inf` and on overflow, NaN at NaN.
 ///
@@ -18,7 +18,7 @@ pub fn exp<T: Real>(x: T) -> T {
     rounded::exp(x)
 }
 
-/// `ln x`, correctly rounded (proved, [`rounding`](crate::book::rounding)).
+/// Computes `ln x`, correctly rounded (proved, [`rounding`](crate::book::rounding)).
 ///
 /// Special cases: `-inf` at 0, `inf` at `inf`, NaN below 0 and at NaN.
 ///
@@ -29,7 +29,8 @@ pub fn ln<T: Real>(x: T) -> T {
     rounded::ln(x)
 }
 
-/// The square root of `x`, correctly rounded (proved: an integer square root and its remainder, as in IEEE 754).
+/// Computes the square root of `x`, correctly rounded (proved: an integer square root and its remainder, as in IEEE
+/// 754).
 ///
 /// Special cases: `±0` at `±0`, `inf` at `inf`, NaN below 0 and at NaN.
 ///
@@ -52,7 +53,7 @@ pub fn sqrt<T: Real>(x: T) -> T {
     rounded::round_integer(root, (e - shift) / 2, root * root != square)
 }
 
-/// `e^x - 1`, within 2 ulp (proved: [`quadrature`](crate::book::quadrature)).
+/// Computes `e^x - 1`, within 2 ulp (proved: [`quadrature`](crate::book::quadrature)).
 ///
 /// Below a quarter `x + x^2/2 (1 + x/3 (1 + x/4 (...)))`; from there on the error of `e^x` is no more than this.
 pub(crate) fn exp_m1<T: Real>(x: T) -> T {

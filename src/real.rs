@@ -8,15 +8,18 @@ use core::fmt::{Debug, Display, LowerExp};
 use num_traits::float::FloatCore;
 
 mod sealed {
-    /// Floats of the one format or of the other.
+    /// An array of floats of either format.
     #[derive(Clone, Copy, Debug)]
     pub enum Floats<'a, const N: usize> {
+        /// Floats of 32 bits.
         Single(&'a [f32; N]),
+        /// Floats of 64 bits.
         Double(&'a [f64; N]),
     }
 
+    /// The seal: only this crate implements it.
     pub trait Sealed: Sized {
-        /// The same floats, for what is not generic.
+        /// Returns the same floats with their format as a value, for code that is not generic.
         fn floats<const N: usize>(floats: &[Self; N]) -> Floats<'_, N>;
     }
 
@@ -48,33 +51,33 @@ pub(crate) use sealed::Floats;
 pub trait Real:
     sealed::Sealed + FloatCore + Debug + Display + LowerExp + Default + Send + Sync + 'static
 {
-    /// Significant bits, the leading one included: 24 or 53.
+    /// The number of significant bits, the leading one included: 24 or 53.
     const PRECISION: u32;
     /// The exponent of the smallest positive number: `2^-149` or `2^-1074`.
     const MIN_EXPONENT: i32;
     /// The name of the format, as the port protocol spells it.
     const FORMAT: &'static str;
-    /// One half: the occupancy of an unknown cell.
+    /// The number one half: the occupancy of an unknown cell.
     const HALF: Self;
 
-    /// The significand `m` and exponent `e` of the magnitude `|x| = m * 2^e` of a finite number, exactly.
+    /// Returns the significand `m` and exponent `e` of the magnitude `|x| = m * 2^e` of a finite number, exactly.
     ///
     /// Zero gives `m = 0`. The pair of an infinity or a NaN means nothing.
     fn parts(self) -> (u64, i32);
 
-    /// The number `m * 2^e`, which the caller knows to be representable.
+    /// Returns the number `m * 2^e`, which the caller knows to be representable.
     ///
     /// Special case: a product above the largest finite number gives infinity.
     fn from_parts(m: u64, e: i32) -> Self;
 
-    /// The same value as `f64`, exactly.
+    /// Converts to `f64`, exactly.
     fn widen(self) -> f64;
 
-    /// The nearest `Self` to an `f64`, ties to even; the same value where it is representable.
+    /// Rounds an `f64` to the nearest `Self`, ties to even; the same value where it is representable.
     fn nearest(x: f64) -> Self;
 }
 
-/// The common body of [`Real`] for one format: `$bits` is its integer, `$stored` its stored significand bits.
+/// Implements [`Real`] for one format: `$bits` is its integer, `$stored` its stored significand bits.
 macro_rules! impl_real {
     ($float:ident, $bits:ident, $stored:literal, $bias:literal, $format:literal) => {
         impl Real for $float {
@@ -88,6 +91,7 @@ macro_rules! impl_real {
                 let bits = self.to_bits();
                 let fraction = u64::from(bits & ((1 << $stored) - 1));
                 let biased = ((bits >> $stored) & (2 * $bias + 1)) as i32;
+                // Subnormal numbers have the exponent of the smallest normal ones, and no implicit bit.
                 if biased == 0 {
                     (fraction, Self::MIN_EXPONENT)
                 } else {

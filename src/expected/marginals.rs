@@ -6,7 +6,7 @@ use crate::map::Encoding;
 use crate::map::repeated::Repeated;
 use crate::real::Real;
 use crate::rounded::Natural;
-use crate::rounded::mean::{self, Both};
+use crate::rounded::beyond_float::{self, Both};
 use crate::tally::Tally;
 use alloc::vec::Vec;
 use core::cmp::Ordering;
@@ -34,11 +34,12 @@ impl<T: Real> Marginal<T> {
         // A certain mean, 0 or 1, has no smaller probability to go by.
         let minor = || {
             let minor = if state == State::Free { first } else { mean.complement().leading() };
-            minor.map_or(mean::CERTAIN, |(leading, _)| mean::of_minor(leading))
+            minor.map_or(beyond_float::CERTAIN, |(leading, _)| beyond_float::at_smaller_probability(leading))
         };
-        let beside_unknown = || beside_half.leading().and_then(|(leading, _)| mean::beside_unknown(leading));
+        let beside_unknown =
+            || beside_half.leading().and_then(|(leading, _)| beyond_float::at_distance_from_unknown(leading));
         let both = match state {
-            State::Unknown => mean::UNKNOWN,
+            State::Unknown => beyond_float::UNKNOWN,
             _ if beside_half.is_above_a_sixteenth() => minor(),
             _ => beside_unknown().unwrap_or_else(minor),
         };

@@ -3,7 +3,7 @@
 
 use crate::error::Error;
 use crate::real::Real;
-use crate::rounded::{Leading, Natural, leading, odd_parts, quotient};
+use crate::rounded::{Leading, Natural, leading, odd_parts, round_quotient};
 use alloc::vec::Vec;
 use core::cmp::Ordering;
 
@@ -147,7 +147,7 @@ impl<'a> Mean<'a> {
 impl Mean<'_> {
     /// Returns the nearest float, ties to even.
     pub(super) fn nearest<T: Real>(&self) -> T {
-        let magnitude: T = quotient(&self.sum, self.total, self.exponent);
+        let magnitude: T = round_quotient(&self.sum, self.total, self.exponent);
         if self.is_negative { -magnitude } else { magnitude }
     }
 

@@ -12,8 +12,8 @@ use super::arithmetic::{max, min};
 use super::endpoint::{Endpoint, Toward, sealed::Sealed};
 use super::ends::Interval;
 use crate::real::Real;
-use crate::rounded::extended::{self, LN_2};
-use crate::rounded::{Enclosure, mul_high, reciprocal, square_root};
+use crate::rounded::wide_elementary::{self, LN_2};
+use crate::rounded::{FixedEnclosure, mul_high, reciprocal, square_root};
 use Toward::{Down, Up};
 
 /// The number `±m 2^e` with `m` in `[2^127, 2^128)`, or 0 with `m = e = 0`, or `±inf` with `e = i32::MAX`.
@@ -235,7 +235,7 @@ impl Endpoint for Wide {
         }
         // |x| < 2^10: within 2^-77 of the value, and on the right side of 1.
         if self.e <= 10 - 128 {
-            let power = enclosed(extended::exp(self.m, self.e, self.negative));
+            let power = enclosed(wide_elementary::exp(self.m, self.e, self.negative));
             let side = if self.negative {
                 Interval::between(Self::ZERO, Self::ONE)
             } else {
@@ -265,7 +265,7 @@ impl Endpoint for Wide {
             }
         }
         // Elsewhere within 2^-76.
-        let (magnitude, below_one) = extended::ln(self.m, self.e);
+        let (magnitude, below_one) = wide_elementary::ln(self.m, self.e);
         let magnitude = enclosed(magnitude);
         if below_one { -magnitude } else { magnitude }
     }
@@ -348,7 +348,7 @@ fn ln_1p(z: Wide) -> Interval<Wide> {
         return Interval::point(Wide::ZERO);
     }
     // The factor z comes last, with all its bits: within 2^-69 of the value.
-    Interval::point(z) * enclosed(extended::ln_1p_over(z.m, z.e, z.negative))
+    Interval::point(z) * enclosed(wide_elementary::ln_1p_over(z.m, z.e, z.negative))
 }
 
 impl<T: Real> From<T> for Wide {
@@ -369,7 +369,7 @@ impl<T: Real> From<Interval<T>> for Interval<Wide> {
 }
 
 /// Converts an enclosure by integers.
-fn enclosed(value: Enclosure) -> Interval<Wide> {
+fn enclosed(value: FixedEnclosure) -> Interval<Wide> {
     let end = |m| Wide::from_integer(m, value.exponent);
     Interval { lower: end(value.lo), upper: end(value.lo + value.width) }
 }

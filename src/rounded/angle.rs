@@ -3,7 +3,7 @@
 use super::fixed::{mul_high, shift_right};
 use crate::real::Real;
 
-/// `1 / (2π)`, cut to 1216 bits, the highest first.
+/// The number `1 / (2π)`, cut to 1216 bits, the highest first.
 const TURNS_PER_RADIAN: [u64; 19] = [
     0x28be_60db_9391_054a,
     0x7f09_d5f4_7d4d_3770,
@@ -26,10 +26,10 @@ const TURNS_PER_RADIAN: [u64; 19] = [
     0x1580_cc11_bf1e_daea,
 ];
 
-/// `π / 2`, scale 126.
+/// The number `π / 2`, scale 126, to nearest.
 const HALF_PI: u128 = 0x6487_ed51_10b4_611a_6263_3145_c06e_0e69;
 
-/// The whole part modulo 2 dropped from a finite angle of `x` radians: turns in units of `2^-128`, within 2 units.
+/// Converts a finite angle of `x` radians to turns modulo 1, in units of `2^-128`, within 2 units.
 ///
 /// Sums of turns wrap, as angles do.
 pub(crate) fn turns(x: f64) -> u128 {
@@ -45,16 +45,18 @@ pub(crate) fn turns(x: f64) -> u128 {
     };
     let [low, middle, high] = [e + 192, e + 128, e + 64].map(|last| u128::from(bits(last)));
     let m = u128::from(m);
+    // m times the 192 bits, modulo 1 turn: the wrapping products drop whole turns, the floor of the lowest one unit.
     let turns = (m * middle).wrapping_add((m * low) >> 64).wrapping_add((m * high) << 64);
     if x < 0.0 { turns.wrapping_neg() } else { turns }
 }
 
-/// The cosine and the sine of an angle in turns, scale 62, within 0.51 units.
+/// Computes the cosine and the sine of an angle in turns, scale 62, within 0.51 units.
 pub(crate) fn cos_sin(turns: u128) -> [i64; 2] {
     // The part of a quarter turn, scale 126, and its complement: both functions of the smaller one.
     let part = turns & ((1 << 126) - 1);
     let rest = (1 << 126) - part;
-    let [cos, sin] = if part <= rest { of_part(part) } else { swapped(of_part(rest)) };
+    let [cos, sin] = if part <= rest { cos_sin_of_part(part) } else { swapped(cos_sin_of_part(rest)) };
+    // Each quarter turn takes (cos, sin) to (-sin, cos).
     match turns >> 126 {
         0 => [cos, sin],
         1 => [-sin, cos],
@@ -63,15 +65,17 @@ pub(crate) fn cos_sin(turns: u128) -> [i64; 2] {
     }
 }
 
+/// Swaps cosine and sine: those of the complement of an angle to a quarter turn.
 fn swapped([cos, sin]: [i64; 2]) -> [i64; 2] {
     [sin, cos]
 }
 
-/// Of at most half of a quarter turn, scale 126.
+/// Computes cosine and sine, scale 62, of at most half of a quarter turn, given as a part of a quarter turn, scale 126.
 ///
-/// Taylor's series to the 30th power: what follows is below `2^-120`. Each of the 15 steps floors twice, 2 units of
-/// `2^-126`.
-fn of_part(part: u128) -> [i64; 2] {
+/// Taylor's series goes to the 30th power: the terms left out are below `2^-120`. Each of the 15 steps floors twice, 2
+/// units of `2^-126`.
+fn cos_sin_of_part(part: u128) -> [i64; 2] {
+    // Radians, and their square, scale 126 = 127 + 127 - 128.
     let angle = mul_high(part << 1, HALF_PI << 1);
     let square = mul_high(angle << 1, angle << 1);
     // 1 - a^2 / (f (f+1)) (1 - a^2 / ((f+2) (f+3)) (1 - ...)), from f = 1 or 2.
@@ -80,6 +84,7 @@ fn of_part(part: u128) -> [i64; 2] {
             (1 << 126) - mul_high(square << 1, sum << 1) / (factor * (factor + 1))
         })
     };
+    // From scale 126 to 62, to nearest: half a unit, and next to nothing of the series.
     let rounded = |x: u128| ((shift_right(x, 63) + 1) >> 1) as i64;
     [rounded(series(1)), rounded(mul_high(angle << 1, series(2) << 1))]
 }

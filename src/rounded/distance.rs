@@ -1,11 +1,12 @@
 //! The distance `step √(x^2 + y^2)` of a grid point from the origin, as if computed exactly and rounded once.
 //!
-//! Ties exist here (3, 4, 5), so the last comparison is of exact integers. The proof is in the chapter
-//! [`rounding`](crate::book::rounding).
+//! Ties exist here (3, 4, 5), so the last comparison is of exact integers. The proof is the section "The distances" of
+//! [`docs/rounding.md`](crate::book::rounding).
 
-use super::big::Ball;
-use super::enclosure::{Enclosure, Midpoint, round_integer};
-use super::{normalised, settle, square_root};
+use super::integers::ball::Ball;
+use super::root::square_root;
+use super::round::{FixedEnclosure, Midpoint, round_integer};
+use super::ziv::{normalised, round_to_nearest};
 use crate::real::Real;
 use core::cmp::Ordering;
 
@@ -15,22 +16,23 @@ pub(crate) struct Coordinate {
     /// The index, and the magnitude of the fraction as a significand and exponent.
     index: u64,
     fraction: (u64, i32),
-    /// Whether the two have different signs.
+    /// True if the two have different signs.
     differ: bool,
     /// The magnitude in units of `2^exponent`, exact or at most two units short: 127 bits, unless it is 0.
     significand: u128,
     exponent: i32,
 }
 
-/// The bits after the point in which index and fraction are added.
+/// The number of bits after the point in which index and fraction are added.
 const SCALE: i32 = 80;
 
 impl Coordinate {
-    /// `|index + fraction|` for `|index| < 2^46` and `|fraction| < 2^46`.
+    /// Creates `|index + fraction|` for `|index| < 2^46` and `|fraction| < 2^46`.
     pub(crate) fn new<T: Real>(index: i64, fraction: T) -> Self {
         let (m, e) = fraction.parts();
         let differ = (index < 0) != fraction.is_sign_negative() && index != 0;
         let index = index.unsigned_abs();
+        // Both at scale 80, if the last bit of the fraction allows it; alone, the fraction keeps its own exponent.
         let whole = u128::from(index) << SCALE;
         let (sum, unit) = if index == 0 {
             (u128::from(m), e)
@@ -38,29 +40,31 @@ impl Coordinate {
             let part = u128::from(m) << (e + SCALE);
             (if differ { whole.abs_diff(part) } else { whole + part }, -SCALE)
         } else {
-            // Cut: the fraction is below 2^-27. The floor, or one unit less.
+            // The fraction is below 2^-27 and is cut: the sum is its floor, or one unit less.
             let part = u128::from(m).checked_shr((-SCALE - e) as u32).unwrap_or(0);
             (if differ { whole - part - 1 } else { whole + part }, -SCALE)
         };
+        // 127 bits. A sum of 0 has no leading one, and its shift is 127.
         let shift = sum.leading_zeros() as i32 - 1;
         Self { index, fraction: (m, e), differ, significand: sum << (shift & 127), exponent: unit - shift }
     }
 
+    /// Returns true if the magnitude is 0.
     fn is_zero(self) -> bool {
         self.significand == 0
     }
 
-    /// The exponent of the next power of two.
+    /// Returns the exponent of the next power of two above the magnitude.
     fn top(self) -> i32 {
         self.exponent + 127
     }
 
-    /// The exponent of the last bit that is not cut.
+    /// Returns the exponent of the last bit of index and fraction.
     fn lowest(self) -> i32 {
         if self.fraction.0 == 0 { 0 } else { self.fraction.1.min(0) }
     }
 
-    /// `2^-top` times the magnitude, exactly if `fraction` holds all of its bits.
+    /// Returns `2^-top` times the magnitude, exactly if `fraction` limbs hold all of its bits.
     fn ball(self, top: i32, fraction: usize) -> Ball {
         let whole = Ball::dyadic(self.index, -top, fraction);
         let part = Ball::dyadic(self.fraction.0, self.fraction.1 - top, fraction);
@@ -74,7 +78,7 @@ impl Coordinate {
     }
 }
 
-/// `step 2^scale √(x^2 + y^2)`, correctly rounded, ties to even, for a positive finite step.
+/// Computes `step 2^scale √(x^2 + y^2)`, correctly rounded, ties to even, for a positive finite step.
 pub(crate) fn distance<T: Real>(step: T, scale: i32, x: Coordinate, y: Coordinate) -> T {
     let (large, small) =
         if x.is_zero() || (!y.is_zero() && x.exponent < y.exponent) { (y, x) } else { (x, y) };
@@ -83,17 +87,18 @@ pub(crate) fn distance<T: Real>(step: T, scale: i32, x: Coordinate, y: Coordinat
     }
     let (m, e) = normalised(step);
     let e = e + scale;
-    // Units of 2^(large.exponent + 64), in which the larger has 63 bits. Each floor drops less than 1.01, so the root of the
-    // sum of squares loses less than 1.5, and its own floor less than one.
+    // Units of 2^(large.exponent + 64), in which the larger has 63 bits. Each floor drops less than 1.01, so the root
+    // of the sum of squares loses less than 1.5, and its own floor less than one ("The distances", Enclosure).
     let gap = if small.is_zero() { 127 } else { (large.exponent - small.exponent).min(63) + 64 };
     let (a, b) = (large.significand >> 64, small.significand >> gap);
     let root = u128::from(square_root(a * a + b * b));
+    // Both ends times the significand of the step: three units of the root in all.
     let m_wide = u128::from(m);
-    let value = Enclosure { lo: root * m_wide, width: 3 * m_wide, exponent: large.exponent + 64 + e };
-    settle(value, |midpoint| rounds_up(m, e, large, small, midpoint))
+    let value = FixedEnclosure { lo: root * m_wide, width: 3 * m_wide, exponent: large.exponent + 64 + e };
+    round_to_nearest(value, |midpoint| rounds_up(m, e, large, small, midpoint))
 }
 
-/// Whether `m 2^e √(x^2 + y^2)` rounds to the float above the midpoint.
+/// Returns true if `m 2^e √(x^2 + y^2)` rounds to the float above the midpoint: compares the squares, exactly.
 fn rounds_up(m: u64, e: i32, large: Coordinate, small: Coordinate, midpoint: Midpoint) -> bool {
     let top = large.top();
     // Everything in units in which the distance is in [1/4, 2), with room for every bit of the squares: two limbs or
@@ -115,7 +120,7 @@ fn rounds_up(m: u64, e: i32, large: Coordinate, small: Coordinate, midpoint: Mid
     }
 }
 
-/// `step 2^scale index`, correctly rounded, ties to even, for a positive finite step and `index < 2^70`.
+/// Computes `step 2^scale index`, correctly rounded, ties to even, for a positive finite step and `index < 2^70`.
 pub(crate) fn multiple<T: Real>(step: T, scale: i32, index: u128) -> T {
     let (m, e) = step.parts();
     round_integer(u128::from(m) * index, e + scale, false)

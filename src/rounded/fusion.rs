@@ -1,16 +1,17 @@
 //! `p = A / (A + B)` with `A = prod p_i` and `B = prod (1 - p_i)`, as if computed exactly and rounded once.
 //!
-//! The powers of two of the factors `p_i = m_i 2^-n_i` and `1 - p_i = (2^n_i - m_i) 2^-n_i` are the same on both
-//! sides and cancel: `A` and `B` stand for products of integers here. First in 128 bits; where these leave two floats
-//! to choose from, which includes all ties, exactly.
+//! The powers of two of the factors `p_i = m_i 2^-n_i` and `1 - p_i = (2^n_i - m_i) 2^-n_i` are the same on both sides
+//! and cancel: `A` and `B` stand for products of integers here. They are formed in 128 bits first; where these leave
+//! two floats to choose from, which includes all ties, exactly. The errors are derived in
+//! [`docs/fusion.md`](crate::book::fusion).
 
-use super::enclosure::{Enclosure, Rounded};
 use super::fixed::{mul_high, reciprocal, shift_right};
-use super::natural::{Natural, quotient};
-use super::odd_parts;
+use super::integers::natural_number::{Natural, round_quotient};
+use super::round::{FixedEnclosure, Rounded};
+use super::ziv::odd_parts;
 use crate::real::Real;
 
-/// A positive number, cut: a significand in `[2^127, 2^128)`, an exponent.
+/// A positive number, cut: `m 2^e` with a significand `m` in `[2^127, 2^128)`.
 #[derive(Clone, Copy)]
 struct Cut {
     m: u128,
@@ -18,20 +19,22 @@ struct Cut {
 }
 
 impl Cut {
+    /// The number one.
     const ONE: Self = Self { m: 1 << 127, e: -127 };
 
+    /// Creates `m 2^e` for `m > 0`, exactly.
     fn new(m: u128, e: i64) -> Self {
         let shift = m.leading_zeros();
         Self { m: m << shift, e: e - i64::from(shift) }
     }
 
-    /// Cut by less than 2 units of the last place.
+    /// Multiplies; cut by less than 2 units of the last place.
     fn times(self, other: Self) -> Self {
         Self::new(mul_high(self.m, other.m), self.e + other.e + 128)
     }
 }
 
-/// For occupancies inside (0, 1).
+/// Fuses occupancies inside `(0, 1)`: `A / (A + B)`, correctly rounded.
 pub(crate) fn fused<T: Real>(occupancies: impl Iterator<Item = T> + Clone) -> T {
     match enclosure(occupancies.clone().filter_map(factors)).round() {
         Rounded::Decided(p) => p,
@@ -39,13 +42,13 @@ pub(crate) fn fused<T: Real>(occupancies: impl Iterator<Item = T> + Clone) -> T 
     }
 }
 
-/// `m` and `n` with `p = m 2^-n`, `m` odd.
+/// Returns `m` and `n` with `p = m 2^-n`, `m` odd.
 fn factors<T: Real>(p: T) -> Option<(u64, u32)> {
     odd_parts(p).map(|(m, e)| (m, (-e) as u32))
 }
 
-/// The fused occupancy within a relative `2^-80`, for fewer than `2^40` factors: each cuts below `2^-125`.
-fn enclosure(factors: impl Iterator<Item = (u64, u32)>) -> Enclosure {
+/// Encloses the fused occupancy within a relative `2^-80`, for fewer than `2^40` factors: each cuts below `2^-125`.
+fn enclosure(factors: impl Iterator<Item = (u64, u32)>) -> FixedEnclosure {
     let (a, b) = factors.fold((Cut::ONE, Cut::ONE), |(a, b), (m, n)| {
         let free = if n < 128 { Cut::new((1 << n) - u128::from(m), 0) } else { rest_of_small(m, n) };
         (a.times(Cut::new(m.into(), 0)), b.times(free))
@@ -53,25 +56,28 @@ fn enclosure(factors: impl Iterator<Item = (u64, u32)>) -> Enclosure {
     share(a, b)
 }
 
-/// `a / (a + b)`, the cuts of both apart within a relative `2^-118`.
-fn share(a: Cut, b: Cut) -> Enclosure {
+/// Encloses `a / (a + b)` within a relative `2^-80`, for the cuts in `a` and `b`; the quotient adds less than `2^-118`.
+fn share(a: Cut, b: Cut) -> FixedEnclosure {
     let occupied = (a.e, a.m) >= (b.e, b.m);
     let (large, small) = if occupied { (a, b) } else { (b, a) };
     // From 2000 on the nearest float is 0 or 1.
     let gap = (large.e - small.e).min(2000) as i32;
     // x = small / large = ratio 2^(-126 - gap), at most 1, and p or 1 - p is 1 / (1 + x).
     let ratio = mul_high(small.m, reciprocal(large.m >> 1) << 1);
+    // 1 + x at scale 126: x is cut by less than a unit.
     let inverse = reciprocal((1 << 126) + shift_right(ratio, gap));
     let (value, exponent) =
         if occupied { (inverse, -126) } else { (mul_high(ratio << 1, inverse << 1), -126 - gap) };
-    Enclosure::around(value, value >> 80, exponent)
+    FixedEnclosure::around(value, value >> 80, exponent)
 }
 
-/// `2^n - m` for `m < 2^53` and `n >= 128`, cut by at most a unit of the last place.
+/// Computes `2^n - m` for `m < 2^53` and `n >= 128`, cut by at most a unit of the last place.
 fn rest_of_small(m: u64, n: u32) -> Cut {
+    // 2^128 - m 2^(128 - n), less a unit, so that the significand is below 2^128.
     Cut { m: u128::MAX - shift_right(u128::from(m), n as i32 - 128), e: i64::from(n) - 128 }
 }
 
+/// Computes `A / (A + B)` in integers of any size and rounds it once, ties to even.
 fn exactly<T: Real>(factors: impl Iterator<Item = (u64, u32)>) -> T {
     let (mut a, mut b) = (Natural::from(1), Natural::from(1));
     for (m, n) in factors {
@@ -79,7 +85,7 @@ fn exactly<T: Real>(factors: impl Iterator<Item = (u64, u32)>) -> T {
         b = b.times(&Natural::from(1).shifted(n as usize).difference(&m.into()).0);
     }
     let whole = b.plus(&a);
-    quotient(&a, &whole, 0)
+    round_quotient(&a, &whole, 0)
 }
 
 #[cfg(test)]

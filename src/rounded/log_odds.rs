@@ -1,21 +1,25 @@
 //! The log-odds `l = ln (p / (1 - p))` of an occupancy: correctly rounded, and in fixed point, so that sums are
 //! exact.
 //!
-//! `|l| = ln ((1 - q) / q)` with `q = min(p, 1 - p)`. No ties: a tie `c` would make `e^c` rational (Lindemann).
+//! `|l| = ln ((1 - q) / q)` with `q = min(p, 1 - p)`. No ties: a tie `c` would make `e^c` rational (Lindemann). The
+//! errors are derived in [`docs/rounding.md`](crate::book::rounding), "The enclosures", 12.
 
-use super::big::Ball;
+use super::approximate::{self, smaller_probability};
+use super::compare::{decide, exp_neg_dyadic};
 use super::constants::LN2;
-use super::enclose::{self, minor};
-use super::enclosure::{Enclosure, Midpoint};
-use super::exact::{decide, exp_neg_dyadic};
-use super::fixed::{LOG_1P_OVER_ERROR, LOG_ERROR, ONE_120, log2, log2_1p_over, mul_high, shift_right};
-use super::{normalised, round_integer, settle};
+use super::fixed::{
+    LOG_1P_OVER_ERROR, LOG_ERROR, floor_71, log2_1p_over, minus_log2_112, minus_log2_120, mul_high,
+    shift_right,
+};
+use super::integers::ball::Ball;
+use super::round::{FixedEnclosure, Midpoint, round_integer};
+use super::ziv::{normalised, round_to_nearest};
 use crate::real::Real;
 
-/// Log-odds in fixed point are integers in units of `2^-80` nats.
+/// The scale of log-odds in fixed point: integers in units of `2^-80` nats.
 pub(crate) const LOG_ODDS_SCALE: i32 = 80;
 
-/// `ln (p / (1 - p))` for `p` in `[0, 1]`.
+/// Computes `ln (p / (1 - p))`, correctly rounded, for `p` in `[0, 1]`.
 pub(crate) fn log_odds_from_occupancy<T: Real>(p: T) -> T {
     if p == T::HALF {
         return T::zero();
@@ -25,15 +29,15 @@ pub(crate) fn log_odds_from_occupancy<T: Real>(p: T) -> T {
     } else {
         let (m, e) = normalised(p);
         let Magnitude { value, error, exponent } = magnitude(m, -e);
-        settle(Enclosure::around(value, error, exponent), |midpoint| is_above(m, -e, midpoint))
+        round_to_nearest(FixedEnclosure::around(value, error, exponent), |midpoint| is_above(m, -e, midpoint))
     };
     if p < T::HALF { -magnitude } else { magnitude }
 }
 
-/// `ln (p / (1 - p))` in units of `2^-80`, within `2^4` units, for `p` in `[0, 1]`; `±2^100` units for the
+/// Computes `ln (p / (1 - p))` in units of `2^-80`, within `2^4` units, for `p` in `[0, 1]`; `±2^100` units for the
 /// infinities.
 ///
-/// Not 0 unless `p = 1/2`: the least magnitude is `2^-52`.
+/// The result is 0 only for `p = 1/2`: the least magnitude of the others is `2^-52`.
 pub(crate) fn fixed_log_odds<T: Real>(p: T) -> i128 {
     if p == T::HALF {
         return 0;
@@ -43,81 +47,92 @@ pub(crate) fn fixed_log_odds<T: Real>(p: T) -> i128 {
     } else {
         let (m, e) = normalised(p);
         let Magnitude { value, exponent, .. } = magnitude(m, -e);
+        // At most 12 units of error, and this floor.
         shift_right(value, -exponent - LOG_ODDS_SCALE) as i128
     };
     if p < T::HALF { -magnitude } else { magnitude }
 }
 
-/// The nearest float to a sum of log-odds in fixed point.
+/// Rounds a sum of log-odds in fixed point to the nearest float.
 pub(crate) fn round_log_odds<T: Real>(sum: i128) -> T {
     let magnitude: T = round_integer(sum.unsigned_abs(), -LOG_ODDS_SCALE, false);
     if sum < 0 { -magnitude } else { magnitude }
 }
 
-/// `1 / (1 + e^-l)` for log-odds in fixed point, within 0.501 ulp: `l` having been summed up, no more is asked.
+/// Computes `1 / (1 + e^-l)` for log-odds in fixed point, within 0.501 ulp: as `l` is a rounded sum, no more is asked,
+/// and an enclosure that holds a midpoint is rounded down.
 pub(crate) fn occupancy_from_fixed_log_odds<T: Real>(sum: i128) -> T {
     if sum == 0 {
         return T::HALF;
     }
     let l = sum.unsigned_abs();
+    // From 2^10 on, p is 0 or 1.
     if l >> (LOG_ODDS_SCALE + 10) != 0 {
         return if sum < 0 { T::zero() } else { T::one() };
     }
-    settle(enclose::occupancy(l << (117 - LOG_ODDS_SCALE), sum < 0), |_| false)
+    // From scale 80 to 117: exact.
+    round_to_nearest(approximate::occupancy(l << (117 - LOG_ODDS_SCALE), sum < 0), |_| false)
 }
 
-/// `value 2^exponent`, within `error` units.
+/// The magnitude of log-odds: `value 2^exponent`, within `error` units.
 pub(super) struct Magnitude {
     pub(super) value: u128,
     error: u128,
     pub(super) exponent: i32,
 }
 
-/// `|l|` for `p = m 2^-n`, `2^52 <= m < 2^53`.
+/// Computes `|l|` for `p = m 2^-n`, `2^52 <= m < 2^53`.
 pub(super) fn magnitude(m: u64, n: i32) -> Magnitude {
+    // |2p - 1| = d 2^-n, exactly; below 2^-8 the two logarithms would cancel.
     if n <= 54 {
         let d = (2 * m).abs_diff(1 << n);
         if d < 1 << (n - 8) {
-            return near_unknown(d, n);
+            return magnitude_near_unknown(d, n);
         }
     }
-    let (m, n) = minor(m, n);
-    if n <= 60 { with_two_logarithms(m, n) } else { with_small_occupancy(m, n) }
+    let (m, n) = smaller_probability(m, n);
+    if n <= 60 { magnitude_with_two_logarithms(m, n) } else { magnitude_with_small_occupancy(m, n) }
 }
 
-/// `|2p - 1| = d 2^-n < 2^-8`: `|l| = ln (1 + d) - ln (1 - d)`, each a slope times `d`.
-fn near_unknown(d: u64, n: i32) -> Magnitude {
+/// Computes `|l| = ln (1 + z) - ln (1 - z)` at `|2p - 1| = z = d 2^-n < 2^-8`, each logarithm a slope times `z`.
+fn magnitude_near_unknown(d: u64, n: i32) -> Magnitude {
+    // Exact at scale 71, as n is at most 54.
     let z = d << (71 - n);
+    // The sum of both slopes, at scale 126 = 112 + 14, times ln 2: scale 125.
     let slope = mul_high((log2_1p_over(z, false) + log2_1p_over(z, true)) << 14, LN2);
     let shift = d.leading_zeros() as i32;
     let value = mul_high(u128::from(d << shift) << 64, slope);
-    // Of the slope, 2 LOG_1P_OVER_ERROR 2^14 (ln 2) / 2.
+    // The error of the slopes, 2 LOG_1P_OVER_ERROR 2^14 (ln 2) / 2, leaves room for three floors.
     Magnitude { value, error: LOG_1P_OVER_ERROR << 14, exponent: -61 - shift - n }
 }
 
-/// `q >= 2^-8`: `|l| / ln 2 = log2 (1 - q) - log2 q`.
-fn with_two_logarithms(m: u64, n: i32) -> Magnitude {
-    let minus_log2_q = (n - 52) as i128 * ONE_120 as i128 - log2(m, 52);
-    let minus_log2_rest = ONE_120 as i128 - log2((1 << n) - m, n as u32 - 1);
+/// Computes `|l| = (log2 (1 - q) - log2 q) ln 2` for `q = m 2^-n >= 2^-8`.
+fn magnitude_with_two_logarithms(m: u64, n: i32) -> Magnitude {
+    let minus_log2_q = minus_log2_120(m, 52, n);
+    let minus_log2_rest = minus_log2_120((1 << n) - m, n as u32 - 1, n);
+    // Scale 120 = 120 + 128 - 128. Two logarithms and ln 2 make 1.39 LOG_ERROR, and floors.
     let value = mul_high((minus_log2_q - minus_log2_rest) as u128, LN2 << 1);
     Magnitude { value, error: 2 * LOG_ERROR, exponent: -120 }
 }
 
-/// `q < 2^-8`: the same with `-log2 (1 - q)` a slope times `q`.
-fn with_small_occupancy(m: u64, n: i32) -> Magnitude {
-    let q_71 = if n <= 71 { m << (71 - n) } else { shift_right(u128::from(m), n - 71) as u64 };
-    let minus_log2_rest = shift_right(mul_high(u128::from(m) << 75, log2_1p_over(q_71, true)), n - 53);
-    let minus_log2_q = ((n - 52) as i128 * (1 << 112) - (log2(m, 52) >> 8)) as u128;
+/// Computes `|l| = (log2 (1 - q) - log2 q) ln 2` for `q = m 2^-n < 2^-8`, with `-log2 (1 - q)` a slope times `q`.
+fn magnitude_with_small_occupancy(m: u64, n: i32) -> Magnitude {
+    // q slope, scale 112: m 2^75 is q 2^(75 + n), so the mul_high is q slope 2^(n - 53).
+    let minus_log2_rest =
+        shift_right(mul_high(u128::from(m) << 75, log2_1p_over(floor_71(m, n), true)), n - 53);
+    let minus_log2_q = minus_log2_112(m, n) as u128;
+    // Scale 112. The logarithm's LOG_ERROR >> 8 and 2^-8 of the slope's error: below 1.5 LOG_ERROR >> 8.
     let value = mul_high(minus_log2_q - minus_log2_rest, LN2 << 1);
     Magnitude { value, error: LOG_ERROR >> 6, exponent: -112 }
 }
 
-/// Whether `|l|` is above the midpoint `c`, for `p = m 2^-n`: whether `q < (1 - q) e^-c`.
+/// Compares `|l|` with the midpoint `c`, for `p = m 2^-n`: it is above if `q < (1 - q) e^-c`.
 fn is_above(m: u64, n: i32, midpoint: Midpoint) -> bool {
-    let (m, n) = minor(m, n);
+    let (m, n) = smaller_probability(m, n);
     decide(|fraction| {
         let (y, k) = exp_neg_dyadic(midpoint.m, midpoint.exponent, fraction);
         let rest = Ball::dyadic(1, 0, fraction).minus(&Ball::dyadic(m, -n, fraction));
+        // Both sides times 2^(n - 53): q itself may be too small for the ball.
         rest.times(&y).scaled(1, n - 53 - k).is_above(&Ball::dyadic(m, -53, fraction))
     })
 }
@@ -142,7 +157,7 @@ mod tests {
 
     /// `|l| = -ln q + ln (1 - q)` for `p = m 2^-n`, in many bits.
     fn many_bits(m: u64, n: i32) -> Ball {
-        let (m, n) = minor(m, n);
+        let (m, n) = smaller_probability(m, n);
         let q = Ball::dyadic(m, -n, FRACTION);
         // q = (1 - y) 2^(53 - n)
         let y = Ball::dyadic((1 << 53) - m, -53, FRACTION);
@@ -162,8 +177,8 @@ mod tests {
         ] {
             let p = f64::from_parts(m, -53);
             let Magnitude { value, error, exponent } = magnitude(m, 53);
-            let rounded = Enclosure::around(value, error, exponent).round::<f64>();
-            assert!(matches!(rounded, super::super::Rounded::Between { .. }), "{p:e}");
+            let rounded = FixedEnclosure::around(value, error, exponent).round::<f64>();
+            assert!(matches!(rounded, super::super::round::Rounded::Between { .. }), "{p:e}");
             assert_eq!(log_odds_from_occupancy(p), expected);
             assert_eq!(log_odds_from_occupancy(1.0 - p), -expected);
         }

@@ -1,9 +1,9 @@
 //! The square root of an integer, cut: as `u128::isqrt`, without its divisions.
 //!
-//! Newton's iteration for `1 / √x` from a table of 8 bits, and for `√x` from that; what it leaves open its remainder
-//! decides.
+//! Newton's iteration finds `1 / √x` from a table of 8 bits, and `√x` from that; the remainder decides the last unit.
 
-/// `1 / √x` in the middle of 192 parts of `[1/4, 1)`, scale 15: within `2^-7.9` of it over the whole part.
+/// The values of `1 / √x` in the middle of 192 parts of `[1/4, 1)`, scale 15: within `2^-7.9` of it over the whole
+/// part.
 static INVERSES: [u16; 192] = {
     let mut inverses = [0; 192];
     let mut k = 0;
@@ -15,16 +15,18 @@ static INVERSES: [u16; 192] = {
     inverses
 };
 
-/// `floor(√n)` for `n > 0`.
+/// Computes `floor(√n)` for `n > 0`.
 ///
-/// Of `n = x 2^128`, `x` in `[1/4, 1)`: a value `y = (1 - e) / √x` gives `y (3 - x y^2) / 2 = (1 - 3/2 e^2 + e^3 / 2) / √x`,
-/// below `1 / √x`, so that the relative errors of `inverse` are below `2^-7.9`, `2^-15.1`, `2^-29.4`, what is cut
-/// included; the last is not above `1 / √x`. A root `s = (1 - e) √n` plus `(n - s^2) y / 2` is not above `√n` either,
-/// and short of it by `(e^2 / 2 + e' e) √n`, `e'` that of `y`: here less than `2^6` and then `2^-22`, of which the floor
-/// makes less than `1 + 2^-22`. So the last root is `floor(√n)` or one less.
+/// Let `n = x 2^128` with `x` in `[1/4, 1)`. A value `y = (1 - e) / √x` gives
+/// `y (3 - x y^2) / 2 = (1 - 3/2 e^2 + e^3 / 2) / √x`, below `1 / √x`, so that the relative errors of `inverse` are
+/// below `2^-7.9`, `2^-15.1`, `2^-29.4`, all cuts included; the last is not above `1 / √x`. A root `s = (1 - e) √n`
+/// plus `(n - s^2) y / 2` is not above `√n` either, and short of it by `(e^2 / 2 + e' e) √n`, where `e'` is the error
+/// of `y`: here less than `2^6` and then `2^-22`, of which the floor makes less than `1 + 2^-22`. So the last root is
+/// `floor(√n)` or one less.
 #[inline]
 pub(crate) fn square_root(n: u128) -> u64 {
     debug_assert!(n > 0);
+    // By an even number of bits, so that the root is moved by half as many.
     let shift = n.leading_zeros() & !1;
     let n = n << shift;
     let x = (n >> 64) as u64;
@@ -38,13 +40,16 @@ pub(crate) fn square_root(n: u128) -> u64 {
 
     // The remainders are below 2^100 and 2^71.
     let remainder = |root: u64| n - product(root, root);
+    // √n = x / √x, scale 64; then (n - s^2) y / 2 is added twice.
     let root = (product(x, inverse) >> 62) as u64;
     let root = root + (product((remainder(root) >> 36) as u64, inverse) >> 91) as u64;
     let root = root + (product((remainder(root) >> 8) as u64, inverse) >> 119) as u64;
+    // (root + 1)^2 = root^2 + 2 root + 1.
     let root = root + u64::from(remainder(root) > 2 * u128::from(root));
     root >> (shift / 2)
 }
 
+/// Multiplies two limbs, exactly.
 #[inline]
 fn product(a: u64, b: u64) -> u128 {
     u128::from(a) * u128::from(b)

@@ -3,9 +3,11 @@
 
 mod single_precision;
 
-use super::fixed::scale_117;
-use super::wide::{SCALE, Wide};
+use super::fixed::floor_117;
+use super::oracle::{Oracle, SCALE};
+use super::round::{Midpoint, Rounded};
 use super::*;
+use crate::real::Real;
 use core::cell::Cell;
 use num_bigint::BigInt;
 use std::vec::Vec;
@@ -71,8 +73,8 @@ fn above_one(x: f64) -> f64 {
     1.0 + x.max(f64::EPSILON)
 }
 
-fn assert_holds(enclosure: Enclosure, exact: &Wide, what: f64) {
-    let Enclosure { lo, width, exponent } = enclosure;
+fn assert_holds(enclosure: FixedEnclosure, exact: &Oracle, what: f64) {
+    let FixedEnclosure { lo, width, exponent } = enclosure;
     let [low, high] = [lo, lo + width].map(|end| BigInt::from(end) << (SCALE as i32 + exponent));
     assert!(&low <= exact.bounds()[0] && exact.bounds()[1] <= &high, "{enclosure:?} at {what:e}");
     // docs/rounding.md: the width is below 2^-13 of the spacing of `f64`.
@@ -89,10 +91,10 @@ fn the_square_is_within_its_error() {
         let distance = gaussian::Distance { large, small, same_sign: j % 2 == 0 };
         let (d, e) = distance.cut();
         let r = gaussian::half_square(d, e, m).expect("below 2^10");
-        let [large, small] = [large, small].map(|(m, e)| Wide::dyadic(m, e));
+        let [large, small] = [large, small].map(|(m, e)| Oracle::dyadic(m, e));
         let exact = if j % 2 == 0 { large.minus(&small) } else { large.plus(&small) };
-        let ratio = exact.over(&Wide::dyadic(m, -52));
-        let square = ratio.times(&ratio).over(&Wide::dyadic(2, 0));
+        let ratio = exact.over(&Oracle::dyadic(m, -52));
+        let square = ratio.times(&ratio).over(&Oracle::dyadic(2, 0));
         let [lo, hi] = square.bounds().map(|end| end >> (SCALE - 117));
         let (r, error) = (BigInt::from(r), BigInt::from(1 << 9));
         assert!(&r - lo < error && hi - &r < error, "{j}");
@@ -102,30 +104,30 @@ fn the_square_is_within_its_error() {
 #[test]
 fn the_enclosures_hold_the_values() {
     for (x, m, e) in each(&LOG_ODDS, 29, 50) {
-        let power = Wide::dyadic(m, e).exp_neg();
-        assert_holds(enclose::exp(m, e, true), &power, x);
-        assert_holds(enclose::exp(m, e, false), &Wide::dyadic(1, 0).over(&power), x);
+        let power = Oracle::dyadic(m, e).exp_neg();
+        assert_holds(approximate::exp(m, e, true), &power, x);
+        assert_holds(approximate::exp(m, e, false), &Oracle::dyadic(1, 0).over(&power), x);
     }
     for (x, m, e) in each(&OCCUPANCIES, 30, 50) {
-        assert_holds(enclose::ln(m, e), &Wide::dyadic(m, e).minus_ln(), x);
+        assert_holds(approximate::ln(m, e), &Oracle::dyadic(m, e).minus_ln(), x);
         // Above 1: ln x = -ln (1/x).
         let (m, e) = normalised(above_one(x));
-        let inverse = Wide::dyadic(1, 0).over(&Wide::dyadic(m, e));
-        assert_holds(enclose::ln(m, e), &inverse.minus_ln(), above_one(x));
+        let inverse = Oracle::dyadic(1, 0).over(&Oracle::dyadic(m, e));
+        assert_holds(approximate::ln(m, e), &inverse.minus_ln(), above_one(x));
     }
     for (p, m, e) in each(&OCCUPANCIES, 31, 50) {
-        let (entropy, information) = enclose::from_occupancy(m, e);
-        let exact = wide::from_occupancy(&Wide::dyadic(m, e));
+        let (entropy, information) = approximate::from_occupancy(m, e);
+        let exact = oracle::from_occupancy(&Oracle::dyadic(m, e));
         assert_holds(entropy, &exact[0], p);
         assert_holds(information, &exact[1], p);
     }
     for (l, m, e) in each(&LOG_ODDS, 37, 50) {
-        let (entropy, information) = enclose::from_log_odds(m, e);
-        let exact = wide::from_log_odds(&Wide::dyadic(m, e));
+        let (entropy, information) = approximate::from_log_odds(m, e);
+        let exact = oracle::from_log_odds(&Oracle::dyadic(m, e));
         assert_holds(entropy, &exact[0], l);
         assert_holds(information, &exact[1], l);
-        assert_holds(enclose::occupancy(scale_117(m, e), false), &exact[2], l);
-        assert_holds(enclose::occupancy(scale_117(m, e), true), &exact[3], l);
+        assert_holds(approximate::occupancy(floor_117(m, e), false), &exact[2], l);
+        assert_holds(approximate::occupancy(floor_117(m, e), true), &exact[3], l);
     }
 }
 
@@ -150,9 +152,11 @@ fn comparison_agrees<T: Real>(count: usize) {
             continue;
         }
         let (m, e) = normalised(p);
-        let bits = Bits::at_occupancy(p);
-        assert_parted(bits.entropy::<T>(), p.widen(), |midpoint| exact::entropy(m, e, midpoint));
-        assert_parted(bits.information::<T>(), p.widen(), |midpoint| exact::information(m, e, midpoint));
+        let enclosures = CellEnclosures::at_occupancy(p);
+        assert_parted(enclosures.entropy::<T>(), p.widen(), |midpoint| compare::entropy(m, e, midpoint));
+        assert_parted(enclosures.information::<T>(), p.widen(), |midpoint| {
+            compare::information(m, e, midpoint)
+        });
     }
     for (l, ..) in each(&LOG_ODDS, 43, count) {
         let l = T::nearest(l);
@@ -161,15 +165,15 @@ fn comparison_agrees<T: Real>(count: usize) {
             continue;
         }
         let (m, e) = normalised(l);
-        let bits = Bits::at_log_odds(l);
-        assert_parted(bits.entropy::<T>(), l.widen(), |midpoint| {
-            exact::entropy_from_log_odds(m, e, midpoint)
+        let enclosures = CellEnclosures::at_log_odds(l);
+        assert_parted(enclosures.entropy::<T>(), l.widen(), |midpoint| {
+            compare::entropy_from_log_odds(m, e, midpoint)
         });
-        assert_parted(bits.information::<T>(), l.widen(), |midpoint| {
-            exact::information_from_log_odds(m, e, midpoint)
+        assert_parted(enclosures.information::<T>(), l.widen(), |midpoint| {
+            compare::information_from_log_odds(m, e, midpoint)
         });
         for (l, negative) in [(l, false), (-l, true)] {
-            let is_above = |midpoint| exact::occupancy(m, e, negative, midpoint);
+            let is_above = |midpoint| compare::occupancy(m, e, negative, midpoint);
             assert_parted(occupancy_from_log_odds(l), l.widen(), is_above);
         }
     }
@@ -184,16 +188,16 @@ fn the_comparison_alone_agrees_with_both_steps() {
 #[test]
 fn the_comparison_of_exponential_and_logarithm_agrees_with_both_steps() {
     for (x, m, e) in each(&LOG_ODDS, 59, 100) {
-        assert_parted(exp(-x), -x, |midpoint| exact::exp(m, e, true, midpoint));
-        assert_parted(exp(x), x, |midpoint| exact::exp(m, e, false, midpoint));
+        assert_parted(exp(-x), -x, |midpoint| compare::exp(m, e, true, midpoint));
+        assert_parted(exp(x), x, |midpoint| compare::exp(m, e, false, midpoint));
     }
     for (x, m, e) in each(&OCCUPANCIES, 61, 100) {
-        assert_parted(-ln(x), x, |midpoint| exact::ln(m, e, true, midpoint));
+        assert_parted(-ln(x), x, |midpoint| compare::ln(m, e, true, midpoint));
         let (m, e) = normalised(above_one(x));
-        assert_parted(ln(above_one(x)), above_one(x), |midpoint| exact::ln(m, e, false, midpoint));
+        assert_parted(ln(above_one(x)), above_one(x), |midpoint| compare::ln(m, e, false, midpoint));
         // Up to 2^400.
         let (m, e) = normalised(1.0 / x);
-        assert_parted(ln(1.0 / x), 1.0 / x, |midpoint| exact::ln(m, e, false, midpoint));
+        assert_parted(ln(1.0 / x), 1.0 / x, |midpoint| compare::ln(m, e, false, midpoint));
     }
 }
 
@@ -201,7 +205,7 @@ fn the_comparison_of_exponential_and_logarithm_agrees_with_both_steps() {
 #[test]
 fn a_comparison_takes_as_many_bits_as_it_needs() {
     let last = Cell::new(0);
-    let above = exact::decide(|fraction| {
+    let above = compare::decide(|fraction| {
         assert!(fraction > last.replace(fraction), "no more bits than before");
         (fraction > 100).then_some(true)
     });
@@ -225,7 +229,7 @@ fn the_comparison_of_the_gaussian_agrees_with_both_steps() {
         let r = gaussian::half_square(d, exponent, m).expect("below 2^10");
         let (_, _, t) = fixed::exp_neg(r);
         assert_parted(gaussian(x, z, s), x, |midpoint| {
-            exact::gaussian(|fraction| distance.ball(fraction), m, t, midpoint)
+            compare::gaussian(|fraction| distance.ball(fraction), m, t, midpoint)
         });
     }
 }
@@ -278,24 +282,24 @@ fn the_square_is_refused_from_1024_on() {
 fn the_comparison_agrees_on_subnormal_results() {
     for l in [709.0, 735.5, 744.4, 745.1, 745.2, 751.9, 752.2] {
         let (m, e) = normalised(l);
-        let entropy: f64 = Bits::at_log_odds(l).entropy();
-        assert_parted(entropy, l, |midpoint| exact::entropy_from_log_odds(m, e, midpoint));
-        assert_parted(occupancy_from_log_odds(-l), l, |midpoint| exact::occupancy(m, e, true, midpoint));
+        let entropy: f64 = CellEnclosures::at_log_odds(l).entropy();
+        assert_parted(entropy, l, |midpoint| compare::entropy_from_log_odds(m, e, midpoint));
+        assert_parted(occupancy_from_log_odds(-l), l, |midpoint| compare::occupancy(m, e, true, midpoint));
     }
     for p in [1, 3, 1000, 1 << 40].map(f64::from_bits) {
         let (m, e) = normalised(p);
-        let entropy: f64 = Bits::at_occupancy(p).entropy();
-        assert_parted(entropy, p, |midpoint| exact::entropy(m, e, midpoint));
+        let entropy: f64 = CellEnclosures::at_occupancy(p).entropy();
+        assert_parted(entropy, p, |midpoint| compare::entropy(m, e, midpoint));
     }
 }
 
 /// docs/rounding.md: fewer than one `f64` in `2^12` meets a midpoint, and one `f32` in `2^41`.
 #[test]
 fn the_comparison_is_rarely_needed() {
-    fn check(kind: &Kind, enclose: fn(u64, i32) -> (Enclosure, Enclosure)) {
+    fn check(kind: &Kind, enclose: fn(u64, i32) -> (FixedEnclosure, FixedEnclosure)) {
         const COUNT: usize = 1 << 17;
         let values = each(std::slice::from_ref(kind), 47, COUNT)
-            .flat_map(|(_, m, e)| <[Enclosure; 2]>::from(enclose(m, e)));
+            .flat_map(|(_, m, e)| <[FixedEnclosure; 2]>::from(enclose(m, e)));
         let (mut double, mut single) = (0, 0);
         for value in values {
             double += u32::from(matches!(value.round::<f64>(), Rounded::Between { .. }));
@@ -305,9 +309,9 @@ fn the_comparison_is_rarely_needed() {
         assert!(double << 12 < 2 * COUNT as u32 && single == 0, "{}: {double}, {single}", kind.0);
     }
     for kind in &OCCUPANCIES {
-        check(kind, enclose::from_occupancy);
+        check(kind, approximate::from_occupancy);
     }
     for kind in &LOG_ODDS {
-        check(kind, enclose::from_log_odds);
+        check(kind, approximate::from_log_odds);
     }
 }

@@ -2,7 +2,7 @@
 //! (Kulisch's long accumulator, without sign).
 
 use crate::real::Real;
-use crate::rounded::mean::Fixed;
+use crate::rounded::beyond_float::Fixed;
 use crate::rounded::{limbs, round_limbs, shift_right};
 #[cfg(feature = "serde")]
 use core::cmp::Ordering;

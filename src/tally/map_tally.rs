@@ -7,7 +7,7 @@ use crate::cell::{Cell, State};
 use crate::real::Real;
 #[cfg(feature = "std")]
 use crate::rounded::lanes;
-use crate::rounded::mean::Both;
+use crate::rounded::beyond_float::Both;
 use core::marker::PhantomData;
 
 /// The message for more cells than counts can hold.

@@ -7,7 +7,7 @@ use std::fs;
 pub(crate) struct Source {
     /// All lines, trimmed.
     pub(crate) lines: Vec<String>,
-    /// The statements of each function of `fixed.rs`, `enclose.rs` and `gaussian.rs`.
+    /// The statements of each function of `fixed.rs`, `approximate.rs` and `gaussian.rs`.
     pub(crate) functions: BTreeMap<String, Vec<String>>,
     /// Integer constants; the elements of an array are `NAME_0`, `NAME_1`, ....
     pub(crate) constants: BTreeMap<String, Integer>,
@@ -37,12 +37,12 @@ impl Integer {
 
 impl Source {
     pub(crate) fn read() -> Self {
-        let [fixed, enclose, gaussian, constants, enclosure] =
-            ["fixed", "enclose", "gaussian", "constants", "enclosure"].map(|name| {
+        let [fixed, approximate, gaussian, constants, round] =
+            ["fixed", "approximate", "gaussian", "constants", "round"].map(|name| {
                 fs::read_to_string(format!("src/rounded/{name}.rs")).expect("the source is there")
             });
-        let quoted = [fixed, enclose, gaussian].join("\n");
-        let all = [quoted.as_str(), &constants, &enclosure].join("\n");
+        let quoted = [fixed, approximate, gaussian].join("\n");
+        let all = [quoted.as_str(), &constants, &round].join("\n");
         let code = without_comments(&quoted);
         Self {
             lines: all.lines().map(|line| line.trim().to_owned()).collect(),

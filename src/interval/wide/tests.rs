@@ -2,7 +2,7 @@
 //! stated.
 
 use super::*;
-use crate::rounded::wide::{SCALE, Wide as Oracle, from_log_odds, from_occupancy};
+use crate::rounded::oracle::{Oracle, SCALE, from_log_odds, from_occupancy};
 use crate::scalar::Scalar;
 use num_bigint::BigInt;
 use proptest::prelude::*;

@@ -103,8 +103,8 @@ proptest! {
     }
 }
 
-/// Solutions of `k^2 - N m^2 = d` (Pell, Brahmagupta): `m √N` is `d / (2 k)` beside the midpoint `k`, of 54 bits, by `2^-105`
-/// of it, and on the side to which a tie would not go.
+/// Solutions of `k^2 - N m^2 = d` (Pell, Brahmagupta): `m √N` is `d / (2 k)` beside the midpoint `k`, of 54 bits, by
+/// `2^-105` of it, and on the side to which a tie would not go.
 #[test]
 fn the_nearest_that_is_no_tie() {
     for (m, x, y, k, d) in [

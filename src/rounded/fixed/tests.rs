@@ -1,8 +1,8 @@
 //! The constants against big arithmetic, digit by digit, and the kernels within their stated errors.
 
-use super::super::big::Ball;
+use super::super::integers::ball::Ball;
+use super::super::oracle::{Oracle, SCALE};
 use super::super::tests::Random;
-use super::super::wide::{SCALE, Wide};
 use super::*;
 use num_bigint::BigInt;
 use std::format;
@@ -21,8 +21,8 @@ fn one() -> Ball {
 }
 
 /// `ln 2` of the other oracle, by another series: `2 artanh(1/3)`.
-fn ln2() -> Wide {
-    Wide::dyadic(1, -1).minus_ln()
+fn ln2() -> Oracle {
+    Oracle::dyadic(1, -1).minus_ln()
 }
 
 #[test]
@@ -62,7 +62,7 @@ fn assert_within(value: u128, [lo, hi]: [&BigInt; 2], scale: usize, error: u128,
 }
 
 /// `-log2 x` for `x` in `(0, 1]`.
-fn minus_log2(x: &Wide) -> Wide {
+fn minus_log2(x: &Oracle) -> Oracle {
     x.minus_ln().over(&ln2())
 }
 
@@ -73,7 +73,7 @@ fn logarithms_are_within_their_error() {
         let k = if j % 2 == 0 { 52 } else { 60 };
         let n = 1 << k | random.next() >> (64 - k) >> (random.below(2) * random.below(k.into()));
         let log = ONE_120 - log2(n, k) as u128;
-        let exact = minus_log2(&Wide::dyadic(n, -(k as i32) - 1));
+        let exact = minus_log2(&Oracle::dyadic(n, -(k as i32) - 1));
         assert_within(log, exact.bounds(), 120, LOG_ERROR, &format!("log2 ({n} / 2^{k})"));
     }
 }
@@ -84,12 +84,12 @@ fn quotients_of_logarithms_are_within_their_error() {
     for _ in 0..200 {
         // z from 2^-8 down to 2^-40, scale 71.
         let z = (random.next() >> 1 >> random.below(32)) | 1;
-        let (one, magnitude) = (Wide::dyadic(1, 0), Wide::dyadic(z, -71));
+        let (one, magnitude) = (Oracle::dyadic(1, 0), Oracle::dyadic(z, -71));
         let exact = minus_log2(&one.minus(&magnitude)).over(&magnitude);
         let what = format!("log2 (1 ± z) / z at {z} / 2^71");
         assert_within(log2_1p_over(z, true), exact.bounds(), 112, LOG_1P_OVER_ERROR, &what);
         // log2 (1 + z) = 1 - (-log2 ((1 + z) / 2)).
-        let half = Wide::dyadic(1, -1).plus(&Wide::dyadic(z, -72));
+        let half = Oracle::dyadic(1, -1).plus(&Oracle::dyadic(z, -72));
         let exact = one.minus(&minus_log2(&half)).over(&magnitude);
         assert_within(log2_1p_over(z, false), exact.bounds(), 112, LOG_1P_OVER_ERROR, &what);
     }
@@ -100,9 +100,9 @@ fn exponentials_are_within_their_error() {
     let mut random = Random(17);
     for _ in 0..300 {
         let (m, e) = (1 << 52 | random.next() >> 12, -(random.below(80) as i32) - 45);
-        let (y, k, t) = exp_neg(scale_117(m, e));
+        let (y, k, t) = exp_neg(floor_117(m, e));
         assert!(((1 << 125) - EXP_ERROR..=1 << 126).contains(&y), "1/2 - 2^-78 <= y <= 1");
-        let l = Wide::dyadic(m, e);
+        let l = Oracle::dyadic(m, e);
         let power = l.exp_neg().bounds().map(|end| end << k);
         assert_within(y, [&power[0], &power[1]], 126, EXP_ERROR, &format!("e^-l at l = {m} 2^{e}"));
         assert_within(t, l.over(&ln2()).bounds(), 116, 2, &format!("l / ln 2 at l = {m} 2^{e}"));

@@ -5,7 +5,7 @@
 
 use super::format::Lane;
 use super::table::{self, Rows, Table};
-use crate::rounded::mean::Fixed;
+use crate::rounded::beyond_float::Fixed;
 
 /// Counts the cells that are summed up at once: so few that no sum of bits overflows.
 pub(crate) const BLOCK: usize = 256;

@@ -1,10 +1,11 @@
 //! The table: value and slope of entropy and information at the centres, to twice the precision.
 
 use super::format::{HALF, Lane};
+use crate::rounded::beyond_float::{self, Both, Fixed};
 use crate::rounded::constants::INV_LN2;
 use crate::rounded::fixed::mul_high;
-use crate::rounded::mean::{self, Both, Fixed};
-use crate::rounded::{enclose, log_odds, round_integer};
+use crate::rounded::round::round_integer;
+use crate::rounded::{approximate, log_odds};
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::iter::repeat_n;
@@ -108,13 +109,13 @@ impl<T: Lane> Row<T> {
 /// Computes entropy and information at `q`, the magnitude of their slopes, and that of their curvature's factor. `q` is
 /// exact: a centre has few bits.
 fn around(q: f64) -> (Both, Fixed, f64) {
-    let (m, e) = crate::rounded::normalised(q);
-    let (entropy, information) = enclose::from_occupancy(m, e);
+    let (m, e) = crate::rounded::ziv::normalised(q);
+    let (entropy, information) = approximate::from_occupancy(m, e);
     // Series: |dV/dq| = |l| / ln 2, and dq/dc = ±1/2: the scale 127 of the constant, of which 128 are dropped.
     let magnitude = log_odds::magnitude(m, -e);
     let slope = Fixed { value: mul_high(magnitude.value, INV_LN2), exponent: magnitude.exponent };
     // Error, `v(c)`: the middle of an enclosure. Products of `q` are exact, so the quotient is rounded once.
-    ((mean::middle(entropy), mean::middle(information)), slope, 0.5 / (q * (1.0 - q)))
+    ((beyond_float::middle(entropy), beyond_float::middle(information)), slope, 0.5 / (q * (1.0 - q)))
 }
 
 /// Returns the nearest float, and the float nearest to what is left.

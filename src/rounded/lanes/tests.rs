@@ -5,8 +5,8 @@ use super::kernel::{BLOCK, Block, series, value};
 use super::table::Table;
 use crate::cell::{Cell, State};
 use crate::real::Real;
-use crate::rounded::mean::{self, Fixed};
-use crate::rounded::{enclose, normalised, shift_right};
+use crate::rounded::beyond_float::{self, Fixed};
+use crate::rounded::{approximate, normalised, shift_right};
 use crate::tally::ExactSum;
 use alloc::vec::Vec;
 use core::sync::atomic::{AtomicU64, Ordering};
@@ -35,8 +35,8 @@ fn error<T: Lane, const FUSED: bool, const ENTROPY: bool>(table: &Table<T>, p: T
         return None;
     }
     let (m, e) = normalised(p);
-    let (entropy, information) = enclose::from_occupancy(m, e);
-    let exact = units(mean::middle(if ENTROPY && !near { entropy } else { information }));
+    let (entropy, information) = approximate::from_occupancy(m, e);
+    let exact = units(beyond_float::middle(if ENTROPY && !near { entropy } else { information }));
     let (head, tail) = value::<T, FUSED, ENTROPY>(&table.rows::<ENTROPY>(), x, near);
     Some((units_of(head) + units_of(tail) - exact).abs() as f64 / exact as f64)
 }

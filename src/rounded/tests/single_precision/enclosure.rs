@@ -1,8 +1,9 @@
 //! Enclosures of entropy, information and occupancy of an `f32`, in `f64`.
 //!
-//! They share nothing with the library: the formulas are sums and products of positive terms (no digits cancel), and the
-//! elementary functions are CORE-MATH's, which are correctly rounded. With `u = 2^-53` each function and each operation adds at
-//! most `u` to the relative error; the comments count them, and no count reaches 16. [`Interval::around`] allows 32.
+//! They share nothing with the library: the formulas are sums and products of positive terms (no digits cancel), and
+//! the elementary functions are CORE-MATH's, which are correctly rounded. With `u = 2^-53` each function and each
+//! operation adds at most `u` to the relative error; the comments count them, and no count reaches 16.
+//! [`Interval::around`] allows 32.
 
 use core::f64::consts::LOG2_E;
 

@@ -9,7 +9,7 @@ use crate::Real;
 use crate::cell::{
     Cell, entropy, entropy_from_log_odds, information, information_from_log_odds, occupancy_from_log_odds,
 };
-use crate::rounded::wide::{self, Wide};
+use crate::rounded::oracle::{self, Oracle};
 use enclosure::Interval;
 use std::ops::AddAssign;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -43,7 +43,7 @@ impl Seen {
         x: f32,
         results: [f32; N],
         enclosures: [Interval; N],
-        wider: impl Fn(&Wide) -> [Wide; N],
+        wider: impl Fn(&Oracle) -> [Oracle; N],
     ) {
         for k in 0..N {
             self.results += 1;
@@ -66,7 +66,7 @@ impl Seen {
         let cell = Cell::from_occupancy(p).expect("an occupancy");
         let results = [cell.entropy(), cell.information()];
         let enclosures = enclosure::from_occupancy(p);
-        self.judge(["entropy", "information"], p, results, enclosures, wide::from_occupancy);
+        self.judge(["entropy", "information"], p, results, enclosures, oracle::from_occupancy);
     }
 
     fn log_odds(&mut self, bits: u32) {
@@ -83,18 +83,18 @@ impl Seen {
         ];
         let results =
             [cell.entropy(), cell.information(), occupancy_from_log_odds(l), occupancy_from_log_odds(-l)];
-        self.judge(names, l, results, enclosure::from_log_odds(l), wide::from_log_odds);
+        self.judge(names, l, results, enclosure::from_log_odds(l), oracle::from_log_odds);
     }
 }
 
 /// A non-negative float, exactly.
-fn exact(x: f32) -> Wide {
+fn exact(x: f32) -> Oracle {
     let (m, e) = x.parts();
-    Wide::dyadic(m, e)
+    Oracle::dyadic(m, e)
 }
 
 /// Whether `x` is the float nearest to every number of an enclosure.
-fn is_nearest(x: f32, enclosure: &Wide) -> bool {
+fn is_nearest(x: f32, enclosure: &Oracle) -> bool {
     let [lo, hi] = enclosure.bounds();
     let twice_midpoint = |y: f32| exact(x).bounds()[0] + exact(y).bounds()[0];
     (x == 0.0 || twice_midpoint(x.next_down()) <= lo * 2) && hi * 2 <= twice_midpoint(x.next_up())
@@ -222,7 +222,8 @@ fn a_slice_of_the_log_odds() {
     assert!(seen.results > 500_000 && seen.wrong == 0);
 }
 
-/// The two oracles against each other, where `f64` decides: a mistake of the wide one would otherwise hide among few inputs.
+/// The two oracles against each other, where `f64` decides: a mistake of the wide one would otherwise hide among few
+/// inputs.
 #[test]
 fn the_oracles_agree() {
     let mut bits = 0x0123_4567;
@@ -231,13 +232,13 @@ fn the_oracles_agree() {
         let p = f32::from_bits(bits);
         // |l| from 2^-20 to 90.
         let l = f32::from_bits(0x3580_0000 + bits % 0x0d30_0000);
-        for (interval, wide) in enclosure::from_occupancy(p).iter().zip(&wide::from_occupancy(&exact(p))) {
+        for (interval, wide) in enclosure::from_occupancy(p).iter().zip(&oracle::from_occupancy(&exact(p))) {
             assert!(
                 interval.nearest().is_none_or(|x| is_nearest(x, wide) && !is_nearest(x.next_up(), wide)),
                 "{p:e}"
             );
         }
-        for (interval, wide) in enclosure::from_log_odds(l).iter().zip(&wide::from_log_odds(&exact(l))) {
+        for (interval, wide) in enclosure::from_log_odds(l).iter().zip(&oracle::from_log_odds(&exact(l))) {
             assert!(
                 interval.nearest().is_none_or(|x| is_nearest(x, wide) && !is_nearest(x.next_up(), wide)),
                 "{l:e}"

@@ -1,8 +1,9 @@
 //! Natural numbers of any size, and the nearest float to the quotient of two.
 
-use super::storage::Limbs;
-use super::{limbs, round_integer};
+use super::inline_limbs::Limbs;
+use super::limbs;
 use crate::real::Real;
+use crate::rounded::round::round_integer;
 use core::cmp::Ordering;
 
 /// A natural number: limbs, lowest first, the last of which is not 0.
@@ -23,7 +24,7 @@ impl From<u64> for Natural {
     }
 }
 
-/// `low + high 2^128`.
+/// Converts `low + high 2^128`.
 impl From<[u128; 2]> for Natural {
     #[inline]
     fn from([low, high]: [u128; 2]) -> Self {
@@ -34,21 +35,24 @@ impl From<[u128; 2]> for Natural {
 }
 
 impl Natural {
+    /// Returns the number without limbs of 0 at the top.
     fn trimmed(mut self) -> Self {
         self.trim();
         self
     }
 
+    /// Drops limbs of 0 at the top.
     fn trim(&mut self) {
         let length = self.limbs.iter().rposition(|&limb| limb != 0).map_or(0, |top| top + 1);
         self.limbs.resize(length);
     }
 
+    /// Returns true for 0.
     pub(crate) fn is_zero(&self) -> bool {
         self.limbs.is_empty()
     }
 
-    /// How many bits it takes.
+    /// Returns the number of bits up to the leading one; 0 for 0.
     pub(crate) fn bits(&self) -> usize {
         self.limbs.last().map_or(0, |top| 64 * self.limbs.len() - top.leading_zeros() as usize)
     }
@@ -59,19 +63,22 @@ impl Natural {
         self.add_limbs(at, &limbs::at_bit(n, part));
     }
 
+    /// Adds.
     pub(crate) fn plus(mut self, other: &Self) -> Self {
         self.add_limbs(0, &other.limbs);
         self
     }
 
+    /// Adds `addend 2^(64 at)`.
     fn add_limbs(&mut self, at: usize, addend: &[u64]) {
+        // One limb more than either, so that nothing carries out.
         let length = self.limbs.len().max(at + addend.len()) + 1;
         self.limbs.resize(length);
         limbs::add(&mut self.limbs[at..], addend);
         self.trim();
     }
 
-    /// `self 2^shift`.
+    /// Returns `self 2^shift`.
     pub(crate) fn shifted(&self, shift: usize) -> Self {
         let (whole, part) = (shift / 64, shift % 64);
         let mut limbs = Limbs::zeros(whole + self.limbs.len() + 1);
@@ -84,18 +91,19 @@ impl Natural {
         Self { limbs }.trimmed()
     }
 
-    /// `self - other` and whether it is negative: its magnitude.
+    /// Returns the magnitude of `self - other`, and true if the difference is negative.
     pub(crate) fn difference(&self, other: &Self) -> (Self, bool) {
         let negative = *self < *other;
         let (large, small) = if negative { (other, self) } else { (self, other) };
         let mut limbs = large.limbs.clone();
-        // The larger: no borrow is left.
+        // The subtrahend is the smaller one: no borrow is left.
         limbs::subtract_multiple(&mut limbs, &small.limbs, 1);
         (Self { limbs }.trimmed(), negative)
     }
 
-    /// `self 2^shift - other 2^other_shift` and whether it is negative: its magnitude.
+    /// Returns the magnitude of `self 2^shift - other 2^other_shift`, and true if the difference is negative.
     pub(crate) fn shifted_difference(&self, shift: usize, other: &Self, other_shift: usize) -> (Self, bool) {
+        // Almost always below 2^256, in two integers of 128 bits.
         let (Some(a), Some(b)) = (self.halves(shift), other.halves(other_shift)) else {
             return self.shifted(shift).difference(&other.shifted(other_shift));
         };
@@ -105,7 +113,7 @@ impl Natural {
         (Self::from([low, large[1] - small[1] - u128::from(borrow)]), negative)
     }
 
-    /// `self 2^shift` as `low + high 2^128`, if it is below `2^256`.
+    /// Returns `low` and `high` with `self 2^shift = low + high 2^128`; `None` unless that is below `2^256`.
     #[inline]
     fn halves(&self, shift: usize) -> Option<[u128; 2]> {
         if self.bits() + shift > 256 {
@@ -120,6 +128,7 @@ impl Natural {
         })
     }
 
+    /// Multiplies.
     pub(crate) fn times(&self, other: &Self) -> Self {
         Self { limbs: limbs::product(&self.limbs, &other.limbs).into() }.trimmed()
     }
@@ -146,12 +155,12 @@ impl Ord for Natural {
     }
 }
 
-/// `n 2^e / divisor`, rounded once to nearest, ties to even, for a divisor that is not 0.
-pub(crate) fn quotient<T: Real>(n: &Natural, divisor: &Natural, e: i32) -> T {
+/// Computes `n 2^e / divisor`, rounded once to nearest, ties to even, for a divisor that is not 0.
+pub(crate) fn round_quotient<T: Real>(n: &Natural, divisor: &Natural, e: i32) -> T {
     leading(n, divisor, e).map_or(T::zero(), |(leading, sticky)| leading.nearest(sticky))
 }
 
-/// The first 63 bits of a positive number: `m 2^e`, `m` in `[2^63, 2^64)` and even.
+/// The leading 63 bits of a positive number: `m 2^e`, `m` in `[2^63, 2^64)` and even.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Leading {
     pub(crate) m: u64,
@@ -159,14 +168,15 @@ pub(crate) struct Leading {
 }
 
 impl Leading {
-    /// The nearest float to this, or to a little more if `sticky`; ties to even.
+    /// Rounds the number, or a little more if `sticky`, to the nearest float; ties to even.
     pub(crate) fn nearest<T: Real>(self, sticky: bool) -> T {
         round_integer(u128::from(self.m), self.e, sticky)
     }
 }
 
-/// The first 63 bits of `n 2^e / divisor`, and whether there are more; `None` if it is 0. They are a function of the
-/// number, not of the fraction that it is written as. Exponents stop at `-4096`.
+/// Returns the leading 63 bits of `n 2^e / divisor`, and true if bits follow that are not 0; `None` if it is 0.
+///
+/// The result depends on the number, not on the fraction that it is written as. Exponents stop at `-4096`.
 pub(crate) fn leading(n: &Natural, divisor: &Natural, e: i32) -> Option<(Leading, bool)> {
     if n.is_zero() {
         return None;
@@ -186,7 +196,7 @@ pub(crate) fn leading(n: &Natural, divisor: &Natural, e: i32) -> Option<(Leading
     Some((Leading { m: m & !1, e: clamped(e) }, sticky || m & 1 == 1))
 }
 
-/// A divisor of at most 128 bits, shifted to 128, and by how much.
+/// Shifts a divisor of at most 128 bits up to 128 bits, and returns with it the shift; `None` for longer ones.
 fn short(divisor: &Natural) -> Option<(u128, u32)> {
     let n = match *divisor.limbs {
         [low] => u128::from(low),
@@ -196,18 +206,20 @@ fn short(divisor: &Natural) -> Option<(u128, u32)> {
     Some((n << n.leading_zeros(), n.leading_zeros()))
 }
 
-/// `n 2^shift / divisor`, below `2^64`, for a divisor of 128 bits, and whether a remainder is left.
+/// Computes `n 2^shift / divisor`, below `2^64`, cut, for a divisor of 128 bits, and returns true with it if a
+/// remainder is left.
 #[inline]
 fn short_digit(n: &Natural, shift: usize, divisor: u128) -> (u64, bool) {
-    // The dividend is of three limbs.
+    // The dividend has three limbs.
     let (whole, part) = (shift / 64, shift % 64);
     let limb = |k: usize| n.limbs.get(k.wrapping_sub(whole)).copied().unwrap_or(0);
     let shifted =
         |k: usize| if part == 0 { limb(k) } else { limb(k) << part | limb(k.wrapping_sub(1)) >> (64 - part) };
     let top = u128::from(shifted(2)) << 64 | u128::from(shifted(1));
     let (high, low) = (divisor >> 64, divisor & u128::from(u64::MAX));
+    // The estimate is not too small, and at most two too large (Knuth, theorem B).
     let mut digit = (top / high).min(u128::from(u64::MAX));
-    // What is left of the two upper limbs, and the third: below 2^64 divisors, and at least minus two.
+    // The rest of the two upper limbs; with the third it is below 2^64 divisors, and at least minus two of them.
     let mut rest = top - digit * high;
     loop {
         // While digit low > rest 2^64 + the third limb: at most two too large, and then the rest is of one limb.
@@ -220,11 +232,11 @@ fn short_digit(n: &Natural, shift: usize, divisor: u128) -> (u64, bool) {
     }
 }
 
-/// `n 2^scale / divisor`, in `(2^62, 2^64)`, and whether a remainder is left.
+/// Computes `n 2^scale / divisor`, in `(2^62, 2^64)`, cut, and returns true with it if a remainder is left.
 fn long_digit(n: &Natural, scale: i64, divisor: &Natural) -> (u64, bool) {
     let length = divisor.limbs.len();
     let normalising = 64 * length - divisor.bits();
-    // A dividend that is far longer moves the divisor instead.
+    // Where the scale is negative, as for a far longer dividend, the divisor is moved instead: by whole limbs.
     let more = usize::try_from(-scale).map_or(0, |excess| excess.div_ceil(64) * 64);
     let divisor = divisor.shifted(normalising + more);
     let moved = scale + (normalising + more) as i64;
@@ -248,7 +260,7 @@ fn long_digit(n: &Natural, scale: i64, divisor: &Natural) -> (u64, bool) {
     (digit, sticky)
 }
 
-/// Beyond these exponents everything is 0 or infinite.
+/// Clamps an exponent to a range beyond which every float is 0 or infinite.
 fn clamped(e: i64) -> i32 {
     e.clamp(-4096, 4096) as i32
 }

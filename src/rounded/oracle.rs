@@ -1,23 +1,24 @@
 //! Entropy, information and occupancy to 600 bits: interval arithmetic in big integers.
 //!
-//! An oracle that is slow and simple, for the few inputs that `f64` leaves undecided and for the tests of the fast path.
+//! An oracle that is slow and simple, for the few inputs that `f64` leaves undecided and for the tests of the fast
+//! path.
 
 use num_bigint::BigInt;
 use std::sync::LazyLock;
 
-/// Fraction bits. Every `f32` is an integer in units of `2^-SCALE`.
+/// The number of fraction bits. Every `f32` is an integer in units of `2^-SCALE`.
 pub(crate) const SCALE: usize = 640;
 
-static LN_2: LazyLock<Wide> = LazyLock::new(|| Wide::integer(2).ln());
+static LN_2: LazyLock<Oracle> = LazyLock::new(|| Oracle::integer(2).ln());
 
-/// `lo <= exact value <= hi`, in units of `2^-SCALE`; not negative.
+/// An interval: `lo <= exact value <= hi`, in units of `2^-SCALE`; not negative.
 #[derive(Clone, Debug)]
-pub(crate) struct Wide {
+pub(crate) struct Oracle {
     lo: BigInt,
     hi: BigInt,
 }
 
-impl Wide {
+impl Oracle {
     fn exact(value: BigInt) -> Self {
         Self { lo: value.clone(), hi: value }
     }
@@ -100,16 +101,16 @@ impl Wide {
 }
 
 /// `H(p)` and `I(p)` for `p` in `(0, 1)`.
-pub(crate) fn from_occupancy(p: &Wide) -> [Wide; 2] {
-    let rest = Wide::integer(1).minus(p);
+pub(crate) fn from_occupancy(p: &Oracle) -> [Oracle; 2] {
+    let rest = Oracle::integer(1).minus(p);
     let nats = p.times(&p.minus_ln()).plus(&rest.times(&rest.minus_ln()));
     let entropy = nats.over(&LN_2);
-    [entropy.clone(), Wide::integer(1).minus(&entropy)]
+    [entropy.clone(), Oracle::integer(1).minus(&entropy)]
 }
 
 /// `H`, `I` and the occupancy at log-odds `l`, and the occupancy at `-l`, for `0 < l < 400`.
-pub(crate) fn from_log_odds(l: &Wide) -> [Wide; 4] {
-    let one = Wide::integer(1);
+pub(crate) fn from_log_odds(l: &Oracle) -> [Oracle; 4] {
+    let one = Oracle::integer(1);
     let x = l.exp_neg();
     let w = one.plus(&x);
     let minor = x.over(&w);

@@ -10,7 +10,7 @@ fn power(exponent: i32) -> f64 {
 /// Judges one enclosure in `f32` by the conversion from `f64`, where all of its numbers are exact.
 fn check_single(lo: u128, width: u128, exponent: i32) {
     let at = |v: u128| v as f64 * power(exponent);
-    match (Enclosure { lo, width, exponent }).round::<f32>() {
+    match (FixedEnclosure { lo, width, exponent }).round::<f32>() {
         Rounded::Decided(x) => {
             assert_eq!((at(lo) as f32, at(lo + width) as f32), (x, x), "{lo} + {width}, {exponent}");
         }
@@ -50,7 +50,7 @@ fn enclosures_of_double_precision_round_to_what_all_their_numbers_round_to() {
     let to_even = |v: u128| f64::from_bits((v as f64 / 256.0).round_ties_even() as u64);
     for lo in 0..1 << 12 {
         for width in 0..1 << 5 {
-            match (Enclosure { lo, width, exponent: -1074 - 8 }).round::<f64>() {
+            match (FixedEnclosure { lo, width, exponent: -1074 - 8 }).round::<f64>() {
                 Rounded::Decided(x) => assert_eq!((to_even(lo), to_even(lo + width)), (x, x)),
                 Rounded::Between { below, above, midpoint } => {
                     assert_eq!(above, below.next_up());
@@ -66,7 +66,7 @@ fn enclosures_of_double_precision_round_to_what_all_their_numbers_round_to() {
         for rest in 0..1 << 7 {
             for width in 0..1 << 5 {
                 let lo = kept << 7 | rest;
-                match (Enclosure { lo, width, exponent: 0 }).round::<f64>() {
+                match (FixedEnclosure { lo, width, exponent: 0 }).round::<f64>() {
                     Rounded::Decided(x) => assert_eq!((lo as f64, (lo + width) as f64), (x, x)),
                     Rounded::Between { below, above, midpoint } => {
                         assert_eq!((below, above), ((kept << 7) as f64, ((kept + 1) << 7) as f64));
@@ -82,14 +82,14 @@ fn enclosures_of_double_precision_round_to_what_all_their_numbers_round_to() {
 #[test]
 fn an_enclosure_far_below_the_smallest_number_is_zero() {
     for exponent in [-1074 - 127, -1074 - 128, -1074 - 140, -1500] {
-        let Rounded::Decided(x) = (Enclosure { lo: 1 << 125, width: 1 << 40, exponent }).round::<f64>()
+        let Rounded::Decided(x) = (FixedEnclosure { lo: 1 << 125, width: 1 << 40, exponent }).round::<f64>()
         else {
             panic!("undecided at {exponent}");
         };
         // At the first, lo is 2^-1076: a quarter of the smallest number.
         assert_eq!(x.to_bits(), 0);
     }
-    let around = Enclosure::around(5, 7, -3);
+    let around = FixedEnclosure::around(5, 7, -3);
     assert_eq!((around.lo, around.width, around.exponent), (0, 14, -3), "no less than 0");
 }
 
@@ -146,7 +146,7 @@ fn small_integers_round_into_the_subnormal_range() {
 #[test]
 fn the_smallest_float_of_the_largest_integers() {
     fn rounded<T: Real>(lo: u128) -> Rounded<T> {
-        Enclosure { lo, width: 1, exponent: T::MIN_EXPONENT - 127 }.round()
+        FixedEnclosure { lo, width: 1, exponent: T::MIN_EXPONENT - 127 }.round()
     }
     assert!(matches!(rounded::<f64>(3 << 125), Rounded::Decided(x) if x == f64::from_bits(1)));
     assert!(matches!(rounded::<f32>(3 << 125), Rounded::Decided(x) if x == f32::from_bits(1)));

@@ -1,8 +1,8 @@
 //! Balls against exact integers: every result must hold what the operation gives for the ends of its operands.
 
-use super::super::tests::Random;
-use super::super::wide::{self, Wide};
 use super::Ball;
+use crate::rounded::oracle::{self, Oracle};
+use crate::rounded::tests::Random;
 use num_bigint::{BigInt, BigUint};
 use std::cmp::Ordering;
 use std::vec::Vec;
@@ -12,14 +12,14 @@ const FRACTION: usize = 3;
 
 impl Ball {
     /// The ends, in units of `2^-(64 fraction)`.
-    pub(in super::super) fn bounds(&self) -> [BigInt; 2] {
+    pub(crate) fn bounds(&self) -> [BigInt; 2] {
         let digits = self.limbs.iter().flat_map(|&limb| [limb as u32, (limb >> 32) as u32]).collect();
         let value = BigInt::from(BigUint::new(digits));
         [&value - self.error, value + self.error]
     }
 
     /// `value` of the given scale, exactly.
-    pub(in super::super) fn fixed(value: u128, scale: i32, fraction: usize) -> Self {
+    pub(crate) fn fixed(value: u128, scale: i32, fraction: usize) -> Self {
         let mut high = Self::dyadic((value >> 64) as u64, 64 - scale, fraction);
         let low = Self::dyadic(value as u64, -scale, fraction);
         high.error = 0;
@@ -37,7 +37,8 @@ impl Ball {
         Self { limbs, error }
     }
 
-    /// Asserts that the ball holds the numbers `low / 2^scale` to `high / 2^scale`, and that its error is at most `error`.
+    /// Asserts that the ball holds the numbers `low / 2^scale` to `high / 2^scale`, and that its error is at most
+    /// `error`.
     fn assert_holds(&self, [low, high]: [BigInt; 2], scale: usize, error: u128) {
         let [lo, hi] = self.bounds().map(|end| end << scale);
         assert!(lo <= low << (64 * (self.limbs.len() - 1)), "{self:?}");
@@ -111,9 +112,9 @@ fn quotients_hold_the_exact_ones() {
 const SERIES: u128 = 4000;
 
 /// `x` of the other oracle in units of `2^-UNIT`, rounded outwards.
-fn range(x: &Wide) -> [BigInt; 2] {
+fn range(x: &Oracle) -> [BigInt; 2] {
     let [lo, hi] = x.bounds();
-    [lo >> (wide::SCALE - UNIT), (hi >> (wide::SCALE - UNIT)) + 1]
+    [lo >> (oracle::SCALE - UNIT), (hi >> (oracle::SCALE - UNIT)) + 1]
 }
 
 #[test]
@@ -125,13 +126,13 @@ fn logarithms_and_exponentials_hold_the_exact_ones() {
         let m = (random.next() >> shift) | 1;
         let q = Ball::dyadic(m, -64, FRACTION);
         let log = q.times(&q.log_series());
-        let [lo, hi] = range(&Wide::dyadic(m.wrapping_neg(), -64).minus_ln());
+        let [lo, hi] = range(&Oracle::dyadic(m.wrapping_neg(), -64).minus_ln());
         assert!(log.bounds()[0] <= hi && log.bounds()[1] >= lo && log.error < SERIES, "{}", log.error);
         let exp = q.exp_neg();
-        let [lo, hi] = range(&Wide::dyadic(m, -64).exp_neg());
+        let [lo, hi] = range(&Oracle::dyadic(m, -64).exp_neg());
         assert!(exp.bounds()[0] <= hi && exp.bounds()[1] >= lo && exp.error < SERIES, "{}", exp.error);
     }
-    let [lo, hi] = range(&Wide::dyadic(1, -1).minus_ln());
+    let [lo, hi] = range(&Oracle::dyadic(1, -1).minus_ln());
     let ln2 = Ball::ln2(FRACTION);
     assert!(ln2.bounds()[0] <= hi && ln2.bounds()[1] >= lo && ln2.error < SERIES);
 }

@@ -1,14 +1,14 @@
-//! Natural numbers as slices of 64-bit limbs, lowest first: what the integers of any size here have in common.
+//! Operations on natural numbers as slices of 64-bit limbs, lowest first: common to all integers of any size here.
 
 use alloc::{vec, vec::Vec};
 use core::cmp::Ordering;
 
-/// The order of two numbers of as many limbs.
+/// Compares two numbers of as many limbs.
 pub(crate) fn compare(a: &[u64], b: &[u64]) -> Ordering {
     a.iter().rev().cmp(b.iter().rev())
 }
 
-/// `a + b` in place, `a` being at least as long as `b`; whether it carries out of `a`.
+/// Adds `b` to `a` in place, where `a` has at least as many limbs as `b`; returns true if the sum carries out of `a`.
 #[inline]
 pub(crate) fn add(a: &mut [u64], b: &[u64]) -> bool {
     let mut carry = false;
@@ -29,8 +29,9 @@ pub(crate) fn add(a: &mut [u64], b: &[u64]) -> bool {
     carry
 }
 
-/// `a - factor b` in place, `a` being at least as long as `b`; the borrow that is left.
-pub(super) fn subtract_multiple(a: &mut [u64], b: &[u64], factor: u64) -> u64 {
+/// Subtracts `factor b` from `a` in place, where `a` has at least as many limbs as `b`; returns the borrow that is
+/// left.
+pub(crate) fn subtract_multiple(a: &mut [u64], b: &[u64], factor: u64) -> u64 {
     let mut borrow = 0_u128;
     for (k, limb) in a.iter_mut().enumerate() {
         let product = u128::from(b.get(k).copied().unwrap_or(0)) * u128::from(factor) + borrow;
@@ -41,14 +42,15 @@ pub(super) fn subtract_multiple(a: &mut [u64], b: &[u64], factor: u64) -> u64 {
     borrow as u64
 }
 
-/// `a b`, in as many limbs as both have.
-pub(super) fn product(a: &[u64], b: &[u64]) -> Vec<u64> {
+/// Multiplies, into as many limbs as both have together.
+pub(crate) fn product(a: &[u64], b: &[u64]) -> Vec<u64> {
     let mut limbs = vec![0; a.len() + b.len()];
     for (i, &x) in a.iter().enumerate() {
         let mut carry = 0;
         for (j, &y) in b.iter().enumerate() {
             let sum = u128::from(x) * u128::from(y) + u128::from(limbs[i + j]) + carry;
             limbs[i + j] = sum as u64;
+            // At most (2^64 - 1)^2 + 2 (2^64 - 1) = 2^128 - 1.
             carry = sum >> 64;
         }
         limbs[i + b.len()] = carry as u64;
@@ -56,7 +58,7 @@ pub(super) fn product(a: &[u64], b: &[u64]) -> Vec<u64> {
     limbs
 }
 
-/// `a / divisor` in place, cut; the remainder.
+/// Divides `a` by `divisor` in place, cut; returns the remainder.
 pub(crate) fn divide(a: &mut [u64], divisor: u64) -> u64 {
     let mut remainder = 0_u128;
     for limb in a.iter_mut().rev() {
@@ -67,7 +69,7 @@ pub(crate) fn divide(a: &mut [u64], divisor: u64) -> u64 {
     remainder as u64
 }
 
-/// `n 2^bit` for a bit of a limb.
+/// Returns the limbs of `n 2^bit`, for `bit` below 64.
 #[inline]
 pub(crate) fn at_bit(n: u128, bit: usize) -> [u64; 3] {
     let low = n << bit;

@@ -1,49 +1,54 @@
 //! Fixed-point numbers of any precision with a counted error: [`Ball`].
+//!
+//! The series are those of the section "The comparison" of [`docs/rounding.md`](crate::book::rounding).
 
 use super::limbs;
 use alloc::{vec, vec::Vec};
 use core::cmp::Ordering;
 
-/// A real number in `[value - error, value + error]`, where `value` is a non-negative integer of limbs (lowest first) and
-/// `error` an integer, both in units of `2^(-64 (limbs - 1))`: the top limb is the integer part.
+/// A real number in `[value - error, value + error]`, where `value` is a non-negative integer of limbs (lowest first)
+/// and `error` an integer, both in units of `2^(-64 (limbs - 1))`: the top limb is the integer part.
 ///
 /// Every operation floors and counts what it dropped. Values must stay below `2^64`.
 #[derive(Clone, Debug)]
-pub(super) struct Ball {
+pub(crate) struct Ball {
     limbs: Vec<u64>,
     error: u128,
 }
 
 impl Ball {
-    /// `m 2^e` in `fraction` limbs below the integer part.
-    pub(super) fn dyadic(m: u64, e: i32, fraction: usize) -> Self {
+    /// Creates `m 2^e` with `fraction` limbs below the integer part.
+    pub(crate) fn dyadic(m: u64, e: i32, fraction: usize) -> Self {
         let mut limbs = vec![0; fraction + 1];
         limbs[fraction] = 1;
         Self { limbs, error: 0 }.scaled(m, e)
     }
 
-    /// The limbs below the integer part.
-    pub(super) fn fraction(&self) -> usize {
+    /// Returns the number of limbs below the integer part.
+    pub(crate) fn fraction(&self) -> usize {
         self.limbs.len() - 1
     }
 
+    /// Returns the top limb.
     fn integer_part(&self) -> u128 {
         u128::from(self.limbs[self.limbs.len() - 1])
     }
 
+    /// Returns true if the value is 0, whatever the error.
     fn is_zero(&self) -> bool {
         self.limbs.iter().all(|&limb| limb == 0)
     }
 
-    pub(super) fn plus(mut self, other: &Self) -> Self {
+    /// Adds.
+    pub(crate) fn plus(mut self, other: &Self) -> Self {
         // A value stays below 2^64: nothing carries out.
         limbs::add(&mut self.limbs, &other.limbs);
         self.error = self.error.saturating_add(other.error);
         self
     }
 
-    /// `self - other`, a difference that is known not to be negative; 0 where flooring made it so.
-    pub(super) fn minus(mut self, other: &Self) -> Self {
+    /// Subtracts, where the difference is known not to be negative; gives 0 where floors made it so.
+    pub(crate) fn minus(mut self, other: &Self) -> Self {
         self.error = self.error.saturating_add(other.error);
         if self.exact_order(other) == Ordering::Less {
             self.limbs.fill(0);
@@ -53,8 +58,8 @@ impl Ball {
         self
     }
 
-    /// `self * m * 2^e`.
-    pub(super) fn scaled(&self, m: u64, e: i32) -> Self {
+    /// Returns `self m 2^e`.
+    pub(crate) fn scaled(&self, m: u64, e: i32) -> Self {
         let n = self.limbs.len() as i64;
         // The product of n + 1 limbs, moved by e = 64 whole + part.
         let (whole, part) = (i64::from(e.div_euclid(64)), e.rem_euclid(64) as u32);
@@ -75,6 +80,7 @@ impl Ball {
                 if part == 0 { high } else { high << part | low >> (64 - part) }
             })
             .collect();
+        // The error is scaled alike, rounded up, and the cut adds a unit.
         let error = if self.error == 0 {
             0
         } else if e >= 0 {
@@ -86,14 +92,15 @@ impl Ball {
         Self { limbs, error: error.saturating_add(1) }
     }
 
-    /// `self / divisor`.
-    pub(super) fn over(mut self, divisor: u64) -> Self {
+    /// Divides by an integer.
+    pub(crate) fn over(mut self, divisor: u64) -> Self {
         limbs::divide(&mut self.limbs, divisor);
         self.error = (self.error / u128::from(divisor)).saturating_add(2);
         self
     }
 
-    pub(super) fn times(&self, other: &Self) -> Self {
+    /// Multiplies.
+    pub(crate) fn times(&self, other: &Self) -> Self {
         let n = self.limbs.len();
         let product = limbs::product(&self.limbs, &other.limbs);
         // |ab - a'b'| <= a' eb + b' ea + ea eb, and ea eb is below one unit: ea, eb < 2^128, and a unit is at most 2^-256.
@@ -103,8 +110,8 @@ impl Ball {
         Self { limbs: product[n - 1..2 * n - 1].to_vec(), error: error.saturating_add(2) }
     }
 
-    /// `self / divisor` for a divisor in `[1, 2]` and a quotient below 2, bit by bit.
-    pub(super) fn divided_by(&self, divisor: &Self) -> Self {
+    /// Divides by a divisor in `[1, 2]`, with a quotient below 2, bit by bit.
+    pub(crate) fn divided_by(&self, divisor: &Self) -> Self {
         let n = self.limbs.len();
         let mut quotient = Self { limbs: vec![0; n], error: 0 };
         let mut rest = self.clone();
@@ -120,8 +127,8 @@ impl Ball {
         quotient
     }
 
-    /// `sum_{j >= 0} q^j / (j + 1) = -ln(1 - q) / q` for `0 <= q <= 1/2`.
-    pub(super) fn log_series(&self) -> Self {
+    /// Sums `D(q) = sum_{j >= 0} q^j / (j + 1) = -ln(1 - q) / q` for `0 <= q <= 1/2`.
+    pub(crate) fn log_series(&self) -> Self {
         let fraction = self.fraction();
         let mut power = Self::dyadic(1, 0, fraction);
         let mut sum = power.clone();
@@ -137,8 +144,8 @@ impl Ball {
         sum
     }
 
-    /// `sum_{j >= 0} u^j / ((2j + 1) (2j + 2))` for `0 <= u <= 1/4`.
-    pub(super) fn information_series(&self) -> Self {
+    /// Sums `T(u) = sum_{j >= 0} u^j / ((2j + 1) (2j + 2))` for `0 <= u <= 1/4`.
+    pub(crate) fn information_series(&self) -> Self {
         let mut power = Self::dyadic(1, 0, self.fraction());
         let mut sum = power.clone().over(2);
         for j in 1.. {
@@ -153,17 +160,17 @@ impl Ball {
         sum
     }
 
-    /// `(1 - e^-r) / r = sum_{j >= 0} (-r)^j / (j + 1)!` for `0 <= r < 1`.
-    pub(super) fn exp_quotient(&self) -> Self {
+    /// Sums `E(r) = (1 - e^-r) / r = sum_{j >= 0} (-r)^j / (j + 1)!` for `0 <= r < 1`.
+    pub(crate) fn exp_quotient(&self) -> Self {
         self.alternating_series(|j| j + 1)
     }
 
-    /// `e^-r` for `0 <= r < 1`.
-    pub(super) fn exp_neg(&self) -> Self {
+    /// Sums `e^-r = sum_{j >= 0} (-r)^j / j!` for `0 <= r < 1`.
+    pub(crate) fn exp_neg(&self) -> Self {
         self.alternating_series(|j| j)
     }
 
-    /// `1 - r / d(1) + r^2 / (d(1) d(2)) - ...` for `0 <= r < 1` and divisors of at least 1.
+    /// Sums `1 - r / d(1) + r^2 / (d(1) d(2)) - ...` for `0 <= r < 1` and divisors of at least 1.
     fn alternating_series(&self, divisor: impl Fn(u64) -> u64) -> Self {
         let mut term = Self::dyadic(1, 0, self.fraction());
         let mut sum = term.clone();
@@ -179,22 +186,23 @@ impl Ball {
         sum
     }
 
-    /// `ln 2 = -ln(1 - 1/2)`.
-    pub(super) fn ln2(fraction: usize) -> Self {
+    /// Computes `ln 2 = -ln(1 - 1/2) = D(1/2) / 2`.
+    pub(crate) fn ln2(fraction: usize) -> Self {
         Self::dyadic(1, -1, fraction).log_series().scaled(1, -1)
     }
 
-    /// The order of two values, whatever their errors: of the numbers themselves if nothing was dropped.
-    pub(super) fn exact_order(&self, other: &Self) -> Ordering {
+    /// Compares the values, whatever their errors: compares the numbers themselves if nothing was dropped.
+    pub(crate) fn exact_order(&self, other: &Self) -> Ordering {
         limbs::compare(&self.limbs, &other.limbs)
     }
 
-    /// Whether the number is above another; `None` if the balls meet.
-    pub(super) fn is_above(&self, other: &Self) -> Option<bool> {
+    /// Returns true if the number is above another; `None` if the balls meet.
+    pub(crate) fn is_above(&self, other: &Self) -> Option<bool> {
         let order = self.exact_order(other);
         let (larger, smaller) = if order == Ordering::Less { (other, self) } else { (self, other) };
         let difference = larger.clone().minus(smaller);
         let error = difference.error;
+        // The difference of the values against the sum of the errors, which fits two limbs.
         let exceeds = difference.limbs.iter().enumerate().any(|(k, &limb)| match k {
             0 | 1 => false,
             _ => limb != 0,

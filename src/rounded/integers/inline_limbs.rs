@@ -1,30 +1,33 @@
-//! Where a number of any size keeps its limbs: a few in place, as almost all have, more on the heap.
+//! The storage of a number of any size: a few limbs in place, as almost all numbers have, more on the heap.
 
 use alloc::{vec, vec::Vec};
 use core::ops::{Deref, DerefMut};
 
-/// Limbs in place: what a mean of occupancies and its quotient take.
+/// The number of limbs in place: enough for a mean of occupancies and its quotient.
 const FEW: usize = 6;
 
-/// Limbs, lowest first; a slice of them.
+/// The limbs of a number, lowest first; dereferences to a slice of them.
 #[derive(Clone, Debug)]
 pub(super) enum Limbs {
+    /// The first `length` limbs of an array; those beyond are not part of the number.
     Few { limbs: [u64; FEW], length: usize },
+    /// Limbs on the heap.
     Many(Vec<u64>),
 }
 
 impl Limbs {
-    /// So many limbs of 0.
+    /// Creates `length` limbs of 0.
     #[inline]
-    pub(super) fn zeros(length: usize) -> Self {
+    pub(crate) fn zeros(length: usize) -> Self {
         if length <= FEW { Self::Few { limbs: [0; FEW], length } } else { Self::Many(vec![0; length]) }
     }
 
-    /// As many limbs as this, cut or with zeros above.
+    /// Changes the number of limbs: cuts the upper ones, or adds zeros above.
     #[inline]
-    pub(super) fn resize(&mut self, wanted: usize) {
+    pub(crate) fn resize(&mut self, wanted: usize) {
         match self {
             Self::Few { limbs, length } if wanted <= FEW => {
+                // Limbs beyond the length may be left from before.
                 limbs[wanted.min(*length)..].fill(0);
                 *length = wanted;
             }

@@ -5,9 +5,9 @@ use super::blocks;
 use super::exact_sum::ExactSum;
 use crate::cell::{Cell, State};
 use crate::real::Real;
+use crate::rounded::beyond_float::Both;
 #[cfg(feature = "std")]
 use crate::rounded::lanes;
-use crate::rounded::beyond_float::Both;
 use core::marker::PhantomData;
 
 /// The message for more cells than counts can hold.

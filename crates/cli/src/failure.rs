@@ -1,7 +1,9 @@
 //! Why a command did not do what it was asked: one line for stderr, and exit status 2.
 
-use crate::maps::{Problem, one_line};
+use crate::one_line::one_line;
+use mean_information_files::{Error, ErrorKind};
 use std::fmt;
+use std::path::{Path, PathBuf};
 
 /// A refused input or request. Its text is one line and says what to do.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -9,7 +11,12 @@ pub enum Failure {
     /// The arguments make no sense.
     Usage(String),
     /// A file cannot be read, or cannot be written.
-    File(Problem),
+    File {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        message: String,
+    },
     /// Standard output cannot be written, for another reason than a reader who closed it.
     StandardOutput(String),
     /// Standard input or output failed while they were served.
@@ -31,7 +38,7 @@ impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Usage(message) => write!(f, "{}; try 'meaninfo --help'", one_line(message)),
-            Self::File(problem) => problem.fmt(f),
+            Self::File { path, message } => f.write_str(&one_line(&format!("{}: {message}", path.display()))),
             Self::StandardOutput(message) => write!(f, "standard output: {}", one_line(message)),
             Self::Streams(message) => write!(f, "standard input or output: {}", one_line(message)),
             Self::Vectors(message) => write!(f, "the vectors built in: {}", one_line(message)),
@@ -43,9 +50,24 @@ impl fmt::Display for Failure {
 
 impl std::error::Error for Failure {}
 
-impl From<Problem> for Failure {
-    fn from(problem: Problem) -> Self {
-        Self::File(problem)
+impl Failure {
+    /// Creates the failure of a file.
+    pub(crate) fn file(path: &Path, message: impl Into<String>) -> Self {
+        Self::File { path: path.to_owned(), message: message.into() }
+    }
+}
+
+impl From<Error> for Failure {
+    /// Takes the error of a reader or a writer, with the option that may mend it.
+    fn from(error: Error) -> Self {
+        let message = match error.kind() {
+            ErrorKind::TooLarge => {
+                format!("{}; raise it with --max-cells if the file is meant", error.message())
+            }
+            ErrorKind::Options => "--unknown needs --mode probability; give both or neither".to_owned(),
+            _ => error.message().to_owned(),
+        };
+        Self::file(error.file().unwrap_or(Path::new("")), message)
     }
 }
 

@@ -7,9 +7,11 @@
 //! | [`hex_float`] | hexadecimal floats |
 //! | [`protocol`] | the messages between `meaninfo check` and a port |
 //! | [`port`] | the library as a port |
-//! | [`maps`] | map files and how to read them |
+//! | `one_line` | text of others in one line |
+//! | `metres` | lengths as the command line takes them |
 //! | `progress` | a bar for long work |
 //! | [`Failure`] | why a command was not done |
+//! | [`reading`] | how files are read, and their warnings, in words of options |
 //! | [`output`] | numbers, tables, JSON and CSV, and where they go |
 //! | [`check`] | ports against the vectors |
 //! | [`measures`] | what is measured of a map |
@@ -25,14 +27,16 @@ pub mod commands;
 pub mod convergence;
 mod failure;
 pub mod hex_float;
-pub mod maps;
 pub mod measures;
+mod metres;
+mod one_line;
 pub mod output;
 pub mod paper;
 pub mod plots;
 pub mod port;
 mod progress;
 pub mod protocol;
+pub mod reading;
 pub mod simulation;
 pub mod sweep;
 

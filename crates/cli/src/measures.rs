@@ -1,10 +1,10 @@
 //! What is measured of a map, and whether it means anything.
 
-use crate::maps::{Cells, Contents, Counted, with_grid};
 use crate::output::{Number, Value};
 use mean_information::cell::Cell;
 use mean_information::map::{Encoding, Grid};
 use mean_information::{Real, Tally};
+use mean_information_files::{Cells, Contents, Counted, Counts, with_grid};
 
 /// The measures of a grid: its size, the sums of Eqs. 2 to 4 of the paper, and the counts behind them.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,7 +26,7 @@ pub struct Measures {
     /// Observed cells with `p > 1/2`.
     pub occupied: u64,
     /// Why the mean information means nothing, if so.
-    pub doubt: Option<Doubt>,
+    pub not_meaningful: Option<NotMeaningful>,
 }
 
 impl Measures {
@@ -45,20 +45,30 @@ impl Measures {
     pub fn of_contents(contents: &Contents) -> Self {
         match contents {
             Contents::Cells(cells) => Self::of(cells),
-            Contents::Counted(counted) => {
-                let Counted { width, height, tally, marked } = &**counted;
-                Self::new([*width, *height], tally, || *marked)
-            }
+            Contents::Counted(Counted::Percent(counts)) => Self::of_counts(counts),
+            Contents::Counted(Counted::Probability(counts)) => Self::of_counts(counts),
         }
     }
 
-    /// The measures of an expected map, of which only the sums are known: a cell that is unknown there is not marked so
+    /// Measures a map of which is known how often each value occurs.
+    pub fn of_counts<E: Encoding>(counts: &Counts<E>) -> Self {
+        let mut tally = Tally::new();
+        for &(stored, count) in &counts.values {
+            if let Some(cell) = E::cell(stored) {
+                tally.add_many(cell, count);
+            }
+        }
+        let marked = || counts.values.iter().any(|&(stored, _)| stored == E::unknown());
+        Self::new([counts.width, counts.height], &tally, marked)
+    }
+
+    /// Takes the measures of an expected map, of which only the sums are known: a cell that is unknown there is not marked so
     /// by anyone, but no percentage either.
     pub fn of_expected<T: Real>(size: [usize; 2], tally: &Tally<T>) -> Self {
         Self::new(size, tally, || tally.unknown() > 0)
     }
 
-    /// With whether a cell is marked as unknown, not only as `p = 1/2`.
+    /// Takes the measures of a tally; `marked` tells whether a cell is marked as unknown, not only as `p = 1/2`.
     fn new<T: Real>([width, height]: [usize; 2], tally: &Tally<T>, marked: impl FnOnce() -> bool) -> Self {
         let observed = tally.observed() > 0;
         Self {
@@ -70,29 +80,29 @@ impl Measures {
             unknown: tally.unknown(),
             free: tally.free(),
             occupied: tally.occupied(),
-            doubt: Doubt::about(tally, marked),
+            not_meaningful: NotMeaningful::of(tally, marked),
         }
     }
 
-    /// The mean information in words, with the reason if it means nothing.
+    /// Returns the mean information in words, with the reason if it means nothing.
     pub fn summary(&self) -> String {
         let number =
             self.mean_information.map_or("none".to_owned(), |x| format!("{x} bits per observed cell"));
-        let doubt = self.doubt.map(|doubt| format!(" (not meaningful: {})", doubt.reason()));
-        format!("mean information: {number}{}", doubt.unwrap_or_default())
+        let reason = self.not_meaningful.map(|why| format!(" (not meaningful: {})", why.reason()));
+        format!("mean information: {number}{}", reason.unwrap_or_default())
     }
 
-    /// Cells with `p != 1/2`.
+    /// Returns the number of cells with `p != 1/2`.
     pub fn observed(&self) -> u64 {
         self.free + self.occupied
     }
 
-    /// Their area in square metres, if the side of a cell is known and the area is a number.
+    /// Returns their area in square metres, if the side of a cell is known and the area is a number.
     pub fn observed_area(&self, resolution: Option<f64>) -> Option<f64> {
         resolution.map(|side| self.observed() as f64 * (side * side)).filter(|area| area.is_finite())
     }
 
-    /// The entries of a record of the map, whose cells have the given side in metres.
+    /// Returns the entries of a record of the map, whose cells have the given side in metres.
     pub fn entries(&self, resolution: Option<f64>) -> [(&'static str, Value); 11] {
         [
             ("width", Value::Count(self.width as u64)),
@@ -112,7 +122,7 @@ impl Measures {
 
 /// Why a mean information means nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Doubt {
+pub enum NotMeaningful {
     /// Every observed cell has `p` 0 or 1.
     Thresholded,
     /// There are no cells.
@@ -123,8 +133,9 @@ pub enum Doubt {
     AllFiftyPercent,
 }
 
-impl Doubt {
-    fn about<T: Real>(tally: &Tally<T>, marked: impl FnOnce() -> bool) -> Option<Self> {
+impl NotMeaningful {
+    /// Tells why the mean information of a tally means nothing, if so.
+    fn of<T: Real>(tally: &Tally<T>, marked: impl FnOnce() -> bool) -> Option<Self> {
         if tally.observed() > 0 {
             is_thresholded(tally).then_some(Self::Thresholded)
         } else if tally.cells() == 0 {
@@ -136,7 +147,7 @@ impl Doubt {
         }
     }
 
-    /// In a few words, to stand beside the number.
+    /// Returns the reason in a few words, to stand beside the number.
     pub fn reason(self) -> &'static str {
         match self {
             Self::Thresholded => "thresholded",
@@ -146,7 +157,7 @@ impl Doubt {
         }
     }
 
-    /// In a sentence.
+    /// Returns the reason in a sentence.
     pub fn warning(self) -> &'static str {
         match self {
             Self::Thresholded => {
@@ -163,7 +174,7 @@ impl Doubt {
     }
 }
 
-/// Whether the cells' tally is that of cells with `p` 0, 1/2 and 1 only. Sums are exact, so no cell hides in rounding.
+/// Tells whether the cells' tally is that of cells with `p` 0, 1/2 and 1 only. Sums are exact, so no cell hides in rounding.
 fn is_thresholded<T: Real>(tally: &Tally<T>) -> bool {
     let counts = [(T::zero(), tally.free()), (T::HALF, tally.unknown()), (T::one(), tally.occupied())];
     let mut certain = Tally::new();
@@ -185,29 +196,29 @@ mod tests {
         Grid::new(cells.len(), 1, Geometry::new(0.2, [0.0; 2]).unwrap(), cells.to_vec()).unwrap()
     }
 
-    fn doubt<E: Encoding>(cells: &[E::Stored]) -> Option<Doubt> {
-        Measures::of_grid(&grid::<E>(cells)).doubt
+    fn why<E: Encoding>(cells: &[E::Stored]) -> Option<NotMeaningful> {
+        Measures::of_grid(&grid::<E>(cells)).not_meaningful
     }
 
     #[test]
     fn thresholded_in_every_encoding() {
-        assert_eq!(doubt::<Probability<f64>>(&[0.0, 1.0, 0.5]), Some(Doubt::Thresholded));
-        assert_eq!(doubt::<Probability<f32>>(&[0.0, 1.0, f32::MIN_POSITIVE]), None);
-        assert_eq!(doubt::<LogOdds<f64>>(&[f64::INFINITY, 0.0]), Some(Doubt::Thresholded));
+        assert_eq!(why::<Probability<f64>>(&[0.0, 1.0, 0.5]), Some(NotMeaningful::Thresholded));
+        assert_eq!(why::<Probability<f32>>(&[0.0, 1.0, f32::MIN_POSITIVE]), None);
+        assert_eq!(why::<LogOdds<f64>>(&[f64::INFINITY, 0.0]), Some(NotMeaningful::Thresholded));
         // Its occupancy rounds to 1, but the cell is not certain.
-        assert_eq!(doubt::<LogOdds<f64>>(&[f64::INFINITY, 60.0]), None);
-        assert_eq!(doubt::<MrptLogOdds>(&[127, -127]), None);
+        assert_eq!(why::<LogOdds<f64>>(&[f64::INFINITY, 60.0]), None);
+        assert_eq!(why::<MrptLogOdds>(&[127, -127]), None);
     }
 
     #[test]
     fn unknown_in_every_encoding() {
-        assert_eq!(doubt::<Probability<f64>>(&[0.5; 3]), Some(Doubt::NothingObserved));
-        assert_eq!(doubt::<LogOdds<f32>>(&[0.0, -0.0]), Some(Doubt::NothingObserved));
-        assert_eq!(doubt::<MrptLogOdds>(&[0; 3]), Some(Doubt::NothingObserved));
-        assert_eq!(doubt::<Percent>(&[50, 50]), Some(Doubt::AllFiftyPercent));
-        assert_eq!(doubt::<Percent>(&[50, -1]), Some(Doubt::NothingObserved));
-        assert_eq!(doubt::<Percent>(&[]), Some(Doubt::NoCells));
-        assert_eq!(doubt::<Percent>(&[50, 49]), None);
+        assert_eq!(why::<Probability<f64>>(&[0.5; 3]), Some(NotMeaningful::NothingObserved));
+        assert_eq!(why::<LogOdds<f32>>(&[0.0, -0.0]), Some(NotMeaningful::NothingObserved));
+        assert_eq!(why::<MrptLogOdds>(&[0; 3]), Some(NotMeaningful::NothingObserved));
+        assert_eq!(why::<Percent>(&[50, 50]), Some(NotMeaningful::AllFiftyPercent));
+        assert_eq!(why::<Percent>(&[50, -1]), Some(NotMeaningful::NothingObserved));
+        assert_eq!(why::<Percent>(&[]), Some(NotMeaningful::NoCells));
+        assert_eq!(why::<Percent>(&[50, 49]), None);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! A bar on stderr while a command works for more than a second, if stderr is a terminal.
 
-use crate::maps::one_line;
+use crate::one_line::one_line;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{self, IsTerminal};
 use std::thread;

@@ -1,9 +1,10 @@
 //! The measures of a map against the size of its cells.
 
-use crate::maps::{Map, with_grid};
 use crate::measures::Measures;
 use crate::output::{Number, Record, Report, Value, table, with_notes};
 use crate::progress::Progress;
+use crate::reading::in_words;
+use mean_information_files::{Map, with_grid};
 
 /// The measures of a map at cells 1, 2, 4, ... times as wide, until one cell holds it all.
 #[derive(Debug)]
@@ -43,8 +44,8 @@ impl Sweep {
             steps.push(Step { k, measures });
             progress.done();
         }
-        let mut warnings = map.warnings.clone();
-        warnings.extend(steps[0].measures.doubt.map(|doubt| doubt.warning().to_owned()));
+        let mut warnings = in_words(&map.warnings);
+        warnings.extend(steps[0].measures.not_meaningful.map(|why| why.warning().to_owned()));
         Ok(Self { name, resolution: map.resolution, steps, warnings })
     }
 

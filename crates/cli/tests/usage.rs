@@ -3,7 +3,7 @@
 mod common;
 
 use common::*;
-use mean_information_cli::maps::{MAX_CELLS, MAX_COUNTED};
+use mean_information_files::{MAX_CELLS, MAX_COUNTED};
 use std::fs;
 use std::io;
 use std::process::{Command, Stdio};

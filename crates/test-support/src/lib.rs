@@ -5,9 +5,14 @@
 //! | [`exact`] | decimals and hexadecimal floats, read exactly | `tests/vectors`, `benches/operations.rs` |
 //! | [`digest`] | digests of a million results and of integrals | `tests/same_bits.rs` |
 //! | [`battery`] | integrals with their values to 32 digits | `tests/library`, `benches/comparison` |
+//! | `formats` | maps made on the spot, and folders for them (feature `formats`) | `crates/files/tests`, `crates/cli/tests` |
+//! | [`properties`] | what fuzzing tries to break | `fuzz`, `crates/files/tests` |
 //! | [`timing`] | the time of a call on a machine that others use, too | `benches/peers`, `crates/cli/benches` |
 
 pub mod battery;
 pub mod digest;
 pub mod exact;
+#[cfg(feature = "formats")]
+pub mod formats;
+pub mod properties;
 pub mod timing;

@@ -1,7 +1,7 @@
 //! The verdict as JUnit XML, which the viewers of continuous integration read: a suite per operation.
 
 use super::{Check, Counts, Verdict, Wrong, words};
-use crate::maps::one_line;
+use crate::one_line::one_line;
 use std::fmt::Write;
 
 /// The suite of what belongs to no test.

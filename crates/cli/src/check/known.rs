@@ -2,7 +2,6 @@
 //! test that was not run after too much trouble has failed, whether it is in the file or not: nobody saw it fail.
 
 use crate::failure::Failure;
-use crate::maps::Problem;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
@@ -18,7 +17,7 @@ impl KnownFailures {
     /// A file that cannot be read.
     pub fn read(path: &Path) -> Result<Self, Failure> {
         let text =
-            fs::read_to_string(path).map_err(|e| Problem::new(path, format!("cannot be read: {e}")))?;
+            fs::read_to_string(path).map_err(|e| Failure::file(path, format!("cannot be read: {e}")))?;
         Ok(Self::parse(&text))
     }
 

@@ -2,7 +2,7 @@
 //! memory: its pipes are served by threads, and what they pass on is bounded.
 
 use super::group::Group;
-use crate::maps::one_line;
+use crate::one_line::one_line;
 use crate::protocol::{Line, read_line};
 use std::collections::VecDeque;
 use std::ffi::OsString;

@@ -4,7 +4,7 @@ use super::run::request;
 use super::values::Format;
 use super::vectors::Test;
 use super::{Answered, Cause, Check, Checked, Counts, Incident, Verdict, Wrong, words};
-use crate::maps::one_line;
+use crate::one_line::one_line;
 use crate::output::{Number, Record, Report, Value, short, table};
 use std::collections::BTreeMap;
 use std::fmt::Write;

@@ -5,7 +5,7 @@ use super::process::{Process, Trouble, shown};
 use super::values::MAX_TOLERANCE;
 use super::vectors::Test;
 use crate::failure::Failure;
-use crate::maps::one_line;
+use crate::one_line::one_line;
 use crate::protocol::{Answer, Reply, Request, Run, VERSION, Welcome};
 use serde::Deserialize;
 use serde_json::Value;

@@ -2,7 +2,6 @@
 
 use super::values::{Format, NEAREST, Trap, Version, Want, some_tolerance, tolerance};
 use crate::failure::Failure;
-use crate::maps::Problem;
 use crate::protocol::{Arguments, values};
 use mean_information::operations::{Operation, Outcome, find};
 use mean_information::vectors::FILES;
@@ -85,7 +84,7 @@ impl Vectors {
     /// # Errors
     /// A folder or a file that cannot be read, or that holds something else.
     pub fn in_folder(folder: &Path) -> Result<Vec<Self>, Failure> {
-        let unreadable = |e: std::io::Error| Problem::new(folder, format!("cannot be read: {e}"));
+        let unreadable = |e: std::io::Error| Failure::file(folder, format!("cannot be read: {e}"));
         let mut paths = Vec::new();
         for entry in fs::read_dir(folder).map_err(unreadable)? {
             let path = entry.map_err(unreadable)?.path();
@@ -96,15 +95,15 @@ impl Vectors {
         }
         paths.sort();
         if paths.is_empty() {
-            return Err(Problem::new(folder, "holds no vectors; give a folder such as vectors/v1").into());
+            return Err(Failure::file(folder, "holds no vectors; give a folder such as vectors/v1"));
         }
         let mut all = Vec::new();
         for path in paths {
-            let text =
-                fs::read_to_string(&path).map_err(|e| Problem::new(&path, format!("cannot be read: {e}")))?;
-            all.push(Self::parse(&text).map_err(|what| Problem::new(&path, what))?);
+            let text = fs::read_to_string(&path)
+                .map_err(|e| Failure::file(&path, format!("cannot be read: {e}")))?;
+            all.push(Self::parse(&text).map_err(|what| Failure::file(&path, what))?);
         }
-        checked(all).map_err(|what| Problem::new(folder, what).into())
+        checked(all).map_err(|what| Failure::file(folder, what))
     }
 
     fn parse(text: &str) -> Result<Self, String> {

@@ -5,7 +5,7 @@ use super::values::Want;
 use super::vectors::Test;
 use super::{Cause, Kind, Wrong};
 use crate::hex_float;
-use crate::maps::one_line;
+use crate::one_line::one_line;
 use crate::output::{Number, short};
 use crate::protocol::{Argument, errors};
 

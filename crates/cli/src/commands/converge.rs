@@ -1,9 +1,9 @@
 //! `meaninfo converge`: grids of a circular room against the limit as their cells shrink.
 
 use super::Status;
-use super::metres::positive;
 use crate::convergence::{Convergence, GridKind, Series};
 use crate::failure::Failure;
+use crate::metres::positive;
 use crate::output::{Files, Writing};
 use crate::plots::{ConvergencePlot, Drawing, Picture};
 use clap::Args;

@@ -1,17 +1,17 @@
 //! `meaninfo emmi`: the mean information of the expected map of weighted maps.
 
 use super::Status;
-use super::metres::positive;
 use crate::failure::Failure;
-use crate::maps::npy::WithMaps;
-use crate::maps::{self, ArrayEncoding, MAX_CELLS, Options, Problem, Readable};
 use crate::measures::Measures;
+use crate::metres::positive;
 use crate::output::{Files, Number, Record, Report, Value, Writing, short, table, with_notes};
 use crate::progress::Progress;
 use clap::Args;
 use mean_information::Real;
 use mean_information::expected::{Hypotheses, weighted_mean};
 use mean_information::map::Grid;
+use mean_information_files::npy::MapsVisitor;
+use mean_information_files::{ArrayEncoding, MAX_CELLS, Options, Readable, read_particles, read_weights};
 use std::path::PathBuf;
 
 /// The arguments of `meaninfo emmi`.
@@ -44,13 +44,13 @@ impl Arguments {
             max_cells: Some(self.max_cells),
             ..Options::default()
         };
-        let weights = maps::read_weights(&self.weights, &options)?;
-        let expected = maps::read_particles(
+        let weights = read_weights(&self.weights, &options)?;
+        let expected = read_particles(
             &self.particles,
             &options,
             Expecting { weights: &weights, max_cells: self.max_cells },
         )?;
-        let expected = expected.map_err(|error| Problem::new(&self.weights, error.to_string()))?;
+        let expected = expected.map_err(|error| Failure::file(&self.weights, error.to_string()))?;
         let name = self.particles.display().to_string();
         let report = Emmi { name, weights, resolution: self.resolution, expected };
         let mut files = Files::new();
@@ -77,10 +77,10 @@ struct Expecting<'a> {
     max_cells: u64,
 }
 
-impl WithMaps for Expecting<'_> {
+impl MapsVisitor for Expecting<'_> {
     type Output = Result<Expected, mean_information::Error>;
 
-    fn with<E: Readable>(self, maps: Vec<Grid<E>>) -> Self::Output {
+    fn visit<E: Readable>(self, maps: Vec<Grid<E>>) -> Self::Output {
         let hypotheses = Hypotheses::new(&maps, self.weights)?.with_max_cells(self.max_cells);
         let progress = Progress::new(maps.len() + 1);
         progress.begin("expected map");
@@ -117,12 +117,12 @@ struct Emmi {
 impl Emmi {
     fn warnings(&self) -> Vec<String> {
         let Expected { measures, mean_of_particles, unobserved, .. } = &self.expected;
-        let doubt = measures.doubt.map(|doubt| doubt.warning().to_owned());
+        let why = measures.not_meaningful.map(|why| why.warning().to_owned());
         let zeros = (*unobserved > 0 && mean_of_particles.is_some()).then(|| {
             let particles = if *unobserved == 1 { "particle" } else { "particles" };
             format!("{unobserved} {particles} with nothing observed, 0 in the mean of particles")
         });
-        doubt.into_iter().chain(zeros).collect()
+        why.into_iter().chain(zeros).collect()
     }
 
     fn observed_area(&self) -> Option<f64> {
@@ -140,7 +140,7 @@ impl Emmi {
             ("mean_of_particles", Value::Computed(*mean_of_particles)),
             ("particles", Value::Numbers(particles.iter().map(|m| m.mean_information).collect())),
             ("observed_area_m2", Value::Computed(self.observed_area().map(Number::Double))),
-            ("meaningful", Value::Flag(measures.doubt.is_none())),
+            ("meaningful", Value::Flag(measures.not_meaningful.is_none())),
             ("warnings", Value::Texts(self.warnings())),
         ])
     }
@@ -163,9 +163,8 @@ impl Report for Emmi {
         };
         let area = self.observed_area().map(|area| format!("\n{} m²", short(area)));
         let mut expected = row("expected map".to_owned(), String::new(), &self.expected.measures);
-        let doubt = self.expected.measures.doubt;
-        expected[2] +=
-            &doubt.map(|doubt| format!("\nnot meaningful:\n{}", doubt.reason())).unwrap_or_default();
+        let why = self.expected.measures.not_meaningful;
+        expected[2] += &why.map(|why| format!("\nnot meaningful:\n{}", why.reason())).unwrap_or_default();
         expected[5] += &area.unwrap_or_default();
         let mean = [
             "mean of particles".to_owned(),

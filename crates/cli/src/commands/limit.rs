@@ -1,8 +1,8 @@
 //! `meaninfo limit`: what the mean information of one scan of a circular room tends to as cells shrink.
 
 use super::Status;
-use super::metres::positive;
 use crate::failure::Failure;
+use crate::metres::positive;
 use crate::output::{Files, Number, Record, Report, Value, Writing, table};
 use clap::{Args, ValueEnum};
 use mean_information::estimate::{Enclosure, Estimate};

@@ -2,12 +2,13 @@
 
 use super::Status;
 use crate::failure::Failure;
-use crate::maps::{self, Map, Options, Problem};
-use crate::measures::{Doubt, Measures};
+use crate::measures::{Measures, NotMeaningful};
 use crate::output::{Files, Number, Record, Report, Value, Writing, short, table, with_notes, wrapped};
 use crate::plots::{self, HeatMap};
 use crate::progress::Progress;
+use crate::reading::{Reading, in_words};
 use clap::Args;
+use mean_information_files::{Map, read_map, read_map_contents};
 use std::path::{Path, PathBuf};
 
 /// The arguments of `meaninfo map`.
@@ -20,7 +21,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE.png")]
     heat_map: Option<PathBuf>,
     #[command(flatten)]
-    reading: Options,
+    reading: Reading,
     #[command(flatten)]
     writing: Writing,
 }
@@ -38,17 +39,18 @@ impl Arguments {
         }
         let mut files = Files::new();
         let mut measured = Vec::with_capacity(self.maps.len());
+        let options = self.reading.options();
         let progress = Progress::new(self.maps.len());
         for path in &self.maps {
             progress.begin(&path.display().to_string());
             // Only a picture needs the cells themselves.
             let row = if let Some(picture) = &self.heat_map {
-                let map = maps::read(path, &self.reading)?;
+                let map = read_map(path, &options)?;
                 let measures = Measures::of(&map.cells);
                 files.add(picture, drawn(path, &map, &measures)?);
                 MeasuredMap::new(path, map, measures, &mut files)
             } else {
-                let map = maps::read_contents(path, &self.reading)?;
+                let map = read_map_contents(path, &options)?;
                 let measures = Measures::of_contents(&map.cells);
                 MeasuredMap::new(path, map, measures, &mut files)
             };
@@ -63,8 +65,8 @@ impl Arguments {
 
 /// The heat map of a map.
 fn drawn(path: &Path, map: &Map, measures: &Measures) -> Result<Vec<u8>, Failure> {
-    if measures.doubt == Some(Doubt::NoCells) {
-        return Err(Problem::new(path, "the map has no cells to draw; leave out --heat-map").into());
+    if measures.not_meaningful == Some(NotMeaningful::NoCells) {
+        return Err(Failure::file(path, "the map has no cells to draw; leave out --heat-map"));
     }
     HeatMap::new(map).to_png(&[plots::title(path), measures.summary()])
 }
@@ -80,15 +82,15 @@ struct MeasuredMap {
 impl MeasuredMap {
     fn new<C>(path: &Path, map: Map<C>, measures: Measures, files: &mut Files) -> Self {
         files.read(map.files);
-        let mut warnings = map.warnings;
-        warnings.extend(measures.doubt.map(|doubt| doubt.warning().to_owned()));
+        let mut warnings = in_words(&map.warnings);
+        warnings.extend(measures.not_meaningful.map(|why| why.warning().to_owned()));
         Self { name: path.display().to_string(), resolution: map.resolution, measures, warnings }
     }
 
     fn record(&self) -> Record {
         let mut entries = vec![("map", Value::Text(self.name.clone()))];
         entries.extend(self.measures.entries(self.resolution));
-        entries.push(("meaningful", Value::Flag(self.measures.doubt.is_none())));
+        entries.push(("meaningful", Value::Flag(self.measures.not_meaningful.is_none())));
         entries.push(("warnings", Value::Texts(self.warnings.clone())));
         Record(entries)
     }
@@ -102,7 +104,9 @@ impl MeasuredMap {
             wrapped(&self.name),
             format!("{} × {}{}", m.width, m.height, side.unwrap_or_default()),
             number
-                + &m.doubt.map(|doubt| format!("\nnot meaningful:\n{}", doubt.reason())).unwrap_or_default(),
+                + &m.not_meaningful
+                    .map(|why| format!("\nnot meaningful:\n{}", why.reason()))
+                    .unwrap_or_default(),
             format!("{:.3}", m.information.widen()),
             format!("{:.3}", m.entropy.widen()),
             format!("{}{}", m.observed(), area.unwrap_or_default()),

@@ -5,7 +5,6 @@ mod converge;
 mod emmi;
 mod limit;
 mod map;
-mod metres;
 mod paper;
 mod port;
 mod simulate;

@@ -1,10 +1,9 @@
 //! `meaninfo simulate`: a robot with a range sensor in a room, and the map it makes.
 
 use super::Status;
-use super::metres::positive;
 use crate::failure::Failure;
-use crate::maps::{Map, Options, Problem, Semantics, npy, ros};
 use crate::measures::Measures;
+use crate::metres::positive;
 use crate::output::{Files, Number, Record, Report, Value, Writing, short, table, wrapped};
 use crate::progress::Progress;
 use crate::simulation::{self, Journey, RoomName, Scanner};
@@ -12,6 +11,7 @@ use clap::Args;
 use mean_information::map::Grid;
 use mean_information::map::encoding::Probability;
 use mean_information::scan::{Pose, ScanMap};
+use mean_information_files::{Map, Options, Semantics, npy, ros};
 use std::ffi::OsString;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
@@ -96,9 +96,11 @@ impl Arguments {
             read: Measures::of(&read.cells),
         };
         let mut outputs = Files::new();
-        outputs.add(&yaml, saved.yaml.into_bytes());
+        outputs.add(&yaml, saved.yaml);
         outputs.add(&image, saved.image);
-        outputs.add(&array, npy::save(&map));
+        let mut cells = Vec::new();
+        npy::write(&map, &mut cells).map_err(|error| error.in_file(&array))?;
+        outputs.add(&array, cells);
         self.writing.write(&report, outputs)?;
         Ok(Status::Done)
     }
@@ -181,17 +183,26 @@ struct Named<'a> {
     array: &'a Path,
 }
 
+/// The bytes of the two files of a ROS map.
+struct Saved {
+    yaml: Vec<u8>,
+    image: Vec<u8>,
+}
+
 impl Named<'_> {
     /// The ROS files of a map, and the map that is read from them.
-    fn save(&self, map: &Grid<Probability<f64>>, comment: &str) -> Result<(ros::SavedMap, Map), Problem> {
+    fn save(&self, map: &Grid<Probability<f64>>, comment: &str) -> Result<(Saved, Map), Failure> {
         let name = self.image.file_name().and_then(|name| name.to_str());
-        let name = name.ok_or_else(|| Problem::new(self.image, "has a name that is not UTF-8 text"))?;
-        let saved = ros::save(map, name, comment).map_err(|fault| fault.in_file(self.image))?;
+        let name = name.ok_or_else(|| Failure::file(self.image, "has a name that is not UTF-8 text"))?;
+        let mut saved = Saved { yaml: Vec::new(), image: Vec::new() };
+        ros::write_description(map.geometry(), name, comment, &mut saved.yaml)
+            .and_then(|()| ros::write_image(map, &mut saved.image))
+            .map_err(|error| error.in_file(self.image))?;
         let options = Options { max_cells: Some(u64::MAX), ..Options::default() };
-        let description = ros::Description::read(saved.yaml.as_bytes(), Semantics::Nav2)
-            .map_err(|fault| fault.in_file(self.yaml))?;
+        let description = ros::Description::read(&saved.yaml[..], Semantics::Nav2)
+            .map_err(|error| error.in_file(self.yaml))?;
         let read = ros::read_image(Cursor::new(&saved.image), &description, &options)
-            .map_err(|fault| fault.in_file(self.image))?;
+            .map_err(|error| error.in_file(self.image))?;
         Ok((saved, read))
     }
 }

@@ -2,11 +2,12 @@
 
 use super::Status;
 use crate::failure::Failure;
-use crate::maps::{self, Options, Problem};
 use crate::output::{Files, Writing};
 use crate::plots::{self, Drawing, Picture, SweepPlot};
+use crate::reading::Reading;
 use crate::sweep::Sweep;
 use clap::Args;
+use mean_information_files::read_map;
 use std::path::PathBuf;
 
 /// The arguments of `meaninfo sweep`.
@@ -19,7 +20,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE.svg|png")]
     plot: Option<PathBuf>,
     #[command(flatten)]
-    reading: Options,
+    reading: Reading,
     #[command(flatten)]
     writing: Writing,
 }
@@ -27,9 +28,9 @@ pub struct Arguments {
 impl Arguments {
     pub(super) fn run(&self) -> Result<Status, Failure> {
         let picture = self.plot.as_deref().map(Picture::by_name).transpose()?;
-        let map = maps::read(&self.map, &self.reading)?;
+        let map = read_map(&self.map, &self.reading.options())?;
         let sweep = Sweep::of(self.map.display().to_string(), &map).map_err(|error| {
-            Problem::new(&self.map, format!("{error}; give the map a smaller resolution"))
+            Failure::file(&self.map, format!("{error}; give the map a smaller resolution"))
         })?;
         let mut files = Files::new();
         if let (Some(path), Some(picture)) = (&self.plot, picture) {

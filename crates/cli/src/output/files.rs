@@ -2,7 +2,6 @@
 
 use super::standard_output;
 use crate::failure::Failure;
-use crate::maps::Problem;
 use std::fs::{self, OpenOptions};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -32,7 +31,7 @@ impl Files {
     /// # Errors
     /// A name that something else has, or in a folder that does not exist.
     pub fn make_folder(&mut self, folder: &Path) -> Result<(), Failure> {
-        let problem = |message: &str| Err(Problem::new(folder, message).into());
+        let problem = |message: &str| Err(Failure::file(folder, message));
         let parent = folder.parent().filter(|parent| !parent.as_os_str().is_empty());
         if folder.is_dir() {
             return Ok(());
@@ -59,7 +58,7 @@ impl Files {
     /// written. Then no file has been touched, unless a rename itself failed after another had been done.
     pub fn write(self) -> Result<(), Failure> {
         let Some(folder) = &self.folder else { return self.write_all() };
-        fs::create_dir(folder).map_err(|e| Problem::new(folder, format!("cannot be made: {e}")))?;
+        fs::create_dir(folder).map_err(|e| Failure::file(folder, format!("cannot be made: {e}")))?;
         self.write_all().inspect_err(|_| {
             // Only if it is empty, as it is unless a rename failed after another.
             let _ = fs::remove_dir(folder);
@@ -78,9 +77,7 @@ impl Files {
     fn target(&self, path: &Path) -> Result<PathBuf, Failure> {
         let target = target(path)?;
         if self.inputs.iter().filter_map(|input| fs::canonicalize(input).ok()).any(|input| input == target) {
-            return Err(
-                Problem::new(path, "is an input of this command; give another name to write to").into()
-            );
+            return Err(Failure::file(path, "is an input of this command; give another name to write to"));
         }
         Ok(target)
     }
@@ -88,10 +85,10 @@ impl Files {
     fn write_all(&self) -> Result<(), Failure> {
         let mut staged: Vec<(PathBuf, TempPath)> = Vec::new();
         for (path, contents) in &self.outputs {
-            let problem = |message: String| Problem::new(path, message);
+            let problem = |message: String| Failure::file(path, message);
             let target = self.target(path)?;
             if staged.iter().any(|(other, _)| *other == target) {
-                return Err(problem("is to be written twice; give two different names".into()).into());
+                return Err(problem("is to be written twice; give two different names".into()));
             }
             let temporary =
                 stage(&target, contents).map_err(|e| problem(format!("cannot be written: {e}")))?;
@@ -100,15 +97,15 @@ impl Files {
         for (target, temporary) in staged {
             temporary
                 .persist(&target)
-                .map_err(|e| Problem::new(&target, format!("cannot be written: {}", e.error)))?;
+                .map_err(|e| Failure::file(&target, format!("cannot be written: {}", e.error)))?;
         }
         Ok(())
     }
 }
 
 /// The place that `path` means, links followed; what stands there can be replaced.
-fn target(path: &Path) -> Result<PathBuf, Problem> {
-    let problem = |message: &str| Problem::new(path, message);
+fn target(path: &Path) -> Result<PathBuf, Failure> {
+    let problem = |message: &str| Failure::file(path, message);
     let failed = |error: io::Error| problem(&format!("cannot be written: {error}"));
     if standard_output::is(path) || is_descriptor(path) {
         return Err(problem("is a stream of this process; give the name of a file to write to"));

@@ -1,6 +1,6 @@
 //! Tables for people.
 
-use crate::maps::one_line;
+use crate::one_line::one_line;
 use comfy_table::{Cell, CellAlignment, ContentArrangement, LineStyle, Table, presets};
 
 /// Names are wrapped to this many characters, as far as they have folders to wrap after.

@@ -6,10 +6,10 @@ use super::cell_cache::CellCache;
 use super::scale::ticks;
 use super::{LABEL, TITLE, drawing_failure};
 use crate::failure::Failure;
-use crate::maps::{Map, with_grid};
 use mean_information::Real;
 use mean_information::cell::State;
 use mean_information::map::{Encoding, Grid};
+use mean_information_files::{Map, with_grid};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 

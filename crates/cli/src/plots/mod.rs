@@ -22,7 +22,7 @@ pub use svg::{Sheet, Svg, escaped};
 pub use sweep::SweepPlot;
 
 use crate::failure::Failure;
-use crate::maps::one_line;
+use crate::one_line::one_line;
 use bitmap::Bitmap;
 use canvas::Canvas;
 use plotters::coord::Shift;

@@ -4,10 +4,10 @@
 use assert_cmd::Command;
 use assert_cmd::cargo::cargo_bin_cmd;
 use mean_information_cli::hex_float;
+pub(crate) use mean_information_test_support::formats::Folder;
 use serde_json::Value;
 use std::fs;
-use std::path::{Path, PathBuf};
-use tempfile::TempDir;
+use std::path::Path;
 
 /// The binary under test.
 pub(crate) fn meaninfo() -> Command {
@@ -34,24 +34,17 @@ pub(crate) fn text(bytes: &[u8]) -> &str {
     std::str::from_utf8(bytes).unwrap()
 }
 
-/// A folder that goes when the test ends.
-pub(crate) struct Folder(TempDir);
+/// Maps written into a folder.
+pub(crate) trait Maps {
+    /// Writes a ROS map of the grey levels given, the upper row first, in `mode`; returns the path of its yaml.
+    fn ros_map(&self, name: &str, width: usize, greys: &[u8], mode: &str) -> String;
 
-impl Folder {
-    pub(crate) fn new() -> Self {
-        Self(TempDir::new().unwrap())
-    }
+    /// Writes an `.npy` map of probabilities, the lowest row first; returns its path.
+    fn npy_map(&self, name: &str, width: usize, cells: &[f64]) -> String;
+}
 
-    pub(crate) fn path(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
-
-    pub(crate) fn text_path(&self, name: &str) -> String {
-        self.path(name).to_str().unwrap().to_owned()
-    }
-
-    /// A ROS map of the grey levels given, the upper row first, in `mode`; the path of its yaml.
-    pub(crate) fn ros_map(&self, name: &str, width: usize, greys: &[u8], mode: &str) -> String {
+impl Maps for Folder {
+    fn ros_map(&self, name: &str, width: usize, greys: &[u8], mode: &str) -> String {
         let image = format!("{}.pgm", name.replace(char::is_control, "_"));
         let mut pgm = format!("P5\n{width} {}\n255\n", greys.len() / width).into_bytes();
         pgm.extend(greys);
@@ -67,8 +60,7 @@ impl Folder {
         self.text_path(&yaml_name)
     }
 
-    /// An `.npy` map of probabilities, the lowest row first; its path.
-    pub(crate) fn npy_map(&self, name: &str, width: usize, cells: &[f64]) -> String {
+    fn npy_map(&self, name: &str, width: usize, cells: &[f64]) -> String {
         let shape = format!("({}, {width})", cells.len().checked_div(width).unwrap_or(0));
         let header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}}}\n");
         let mut npy = b"\x93NUMPY\x01\x00".to_vec();
@@ -77,14 +69,6 @@ impl Folder {
         npy.extend(cells.iter().flat_map(|p| p.to_le_bytes()));
         fs::write(self.path(name), npy).unwrap();
         self.text_path(name)
-    }
-
-    /// The names of all files in it, sorted.
-    pub(crate) fn names(&self) -> Vec<String> {
-        let entries = fs::read_dir(self.0.path()).unwrap();
-        let mut names: Vec<_> = entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
-        names.sort();
-        names
     }
 }
 

@@ -8,11 +8,14 @@ use common::*;
 use mean_information::expected::Hypotheses;
 use mean_information::map::encoding::MrptLogOdds;
 use mean_information::map::{Encoding, Grid};
-use mean_information_cli::maps::npy::WithMaps;
-use mean_information_cli::maps::{self, ArrayEncoding, Cells, Options, Readable};
+use mean_information_files::npy::MapsVisitor;
+use mean_information_files::{
+    ArrayEncoding, Cells, Options, Readable, read_map, read_particles, read_weights,
+};
+use mean_information_test_support::formats::shared_data;
 use serde_json::Value;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 const KEYS: [&str; 14] = [
     "emmi",
@@ -32,14 +35,7 @@ const KEYS: [&str; 14] = [
 ];
 
 fn data() -> Option<PathBuf> {
-    let folder = std::env::var_os("MEANINFO_SHARED_DATA")
-        .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data"), PathBuf::from);
-    let folder = folder.join("emmi");
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    println!("skipped: {} is absent; MEANINFO_SHARED_DATA names the folder of real maps", folder.display());
-    None
+    shared_data().map(|folder| folder.join("emmi"))
 }
 
 /// An array file of version 1.
@@ -135,10 +131,10 @@ fn real_particles_have_the_expected_values_to_the_last_bit() {
 /// A stack of MRPT bytes, with the stored bytes and the log-linear pool, in units of MRPT's bytes.
 struct Pooled(Vec<f64>);
 
-impl WithMaps for Pooled {
+impl MapsVisitor for Pooled {
     type Output = (Vec<Vec<f64>>, Vec<f64>);
 
-    fn with<E: Readable>(self, maps: Vec<Grid<E>>) -> Self::Output {
+    fn visit<E: Readable>(self, maps: Vec<Grid<E>>) -> Self::Output {
         let pool = Hypotheses::new(&maps, &self.0).unwrap().log_linear_pool().unwrap();
         let in_bytes = |l: f64| -16.0 * l;
         let stored = |map: &Grid<E>| map.cells().iter().map(|&x| E::value(x).max(-127.0)).collect();
@@ -154,10 +150,10 @@ fn mrpt_s_average_is_the_log_linear_pool_cut_to_a_byte() {
     let Some(data) = data() else { return };
     for (step, observed) in [("step0020", 5735), ("step0100", 26_902)] {
         let options = Options { encoding: Some(ArrayEncoding::Mrpt), ..Options::default() };
-        let weights = maps::read_weights(&data.join(format!("{step}_weights.npy")), &options).unwrap();
+        let weights = read_weights(&data.join(format!("{step}_weights.npy")), &options).unwrap();
         let stack = data.join(format!("{step}_particles.npy"));
-        let (particles, pool) = maps::read_particles(&stack, &options, Pooled(weights.clone())).unwrap();
-        let average = maps::read(&data.join(format!("{step}_mrpt_average.npy")), &options).unwrap();
+        let (particles, pool) = read_particles(&stack, &options, Pooled(weights.clone())).unwrap();
+        let average = read_map(&data.join(format!("{step}_mrpt_average.npy")), &options).unwrap();
         let Cells::Mrpt(average) = average.cells else { panic!("MRPT bytes") };
         assert_eq!(average.cells().iter().filter(|&&byte| byte != 0).count(), observed);
         let mut near_an_integer = 0;

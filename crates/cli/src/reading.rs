@@ -1,0 +1,59 @@
+//! How map files are read, as the command line says it, and what it says of their warnings.
+
+use crate::metres::positive;
+use clap::Args;
+use mean_information_files::{ArrayEncoding, Mode, Options, Semantics, Warning};
+
+/// How to read map files.
+#[derive(Args, Clone, Debug)]
+#[command(next_help_heading = "Reading")]
+pub struct Reading {
+    /// Whose rules turn the grey levels of a ROS map into percentages.
+    #[arg(long, value_enum, default_value_t)]
+    semantics: Semantics,
+    /// How the grey levels of a ROS map are meant; the file's own mode if absent.
+    #[arg(long, value_enum)]
+    mode: Option<Mode>,
+    /// With --mode probability, the grey level (of the image's own depth) that means unknown.
+    #[arg(long, value_name = "GREY")]
+    unknown: Option<u16>,
+    /// What the numbers of an .npy array are; if absent, floats are probabilities and int8 are percentages.
+    #[arg(long, value_enum)]
+    encoding: Option<ArrayEncoding>,
+    /// The side of a cell of an .npy array in metres.
+    #[arg(long, value_name = "METRES", value_parser = positive::<f64>)]
+    resolution: Option<f64>,
+    /// Refuse a map of more cells than this before any is read; if absent, of more than 268435456 where cells are kept:
+    /// 1 byte a cell, 8 in --mode probability, and as many in .npy arrays as the file has. Where `meaninfo map` only
+    /// counts the pixels of an image, which takes no memory, the limit is 17179869184 for PNG, and none for PGM.
+    #[arg(long, value_name = "N")]
+    max_cells: Option<u64>,
+}
+
+impl Reading {
+    /// Returns the options of the readers.
+    pub fn options(&self) -> Options {
+        Options {
+            semantics: self.semantics,
+            mode: self.mode,
+            unknown: self.unknown,
+            encoding: self.encoding,
+            resolution: self.resolution,
+            max_cells: self.max_cells,
+        }
+    }
+}
+
+/// Returns the warnings of a map as texts, each with the option that mends it.
+pub fn in_words(warnings: &[Warning]) -> Vec<String> {
+    let in_words = |warning: &Warning| match warning {
+        Warning::SavedUnknownReadAs { grey, free_thresh: None, .. } => {
+            format!("{warning}; if that grey means unknown, give --mode probability --unknown {grey}")
+        }
+        Warning::OftenUnknownObserved { grey, .. } => {
+            format!("{warning}; give --unknown {grey} if that grey means unknown")
+        }
+        warning => warning.to_string(),
+    };
+    warnings.iter().map(in_words).collect()
+}

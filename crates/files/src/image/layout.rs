@@ -1,0 +1,102 @@
+//! How the pixels of an image are laid out.
+
+use crate::error::{Error, ErrorKind};
+use crate::size::Size;
+
+/// The samples of a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Channels {
+    /// Grey.
+    Grey,
+    /// Grey and alpha.
+    GreyAlpha,
+    /// Grey, and an alpha that one transparent grey level was turned into.
+    GreyKeyed,
+    /// Red, green, blue.
+    Rgb,
+    /// Red, green, blue, alpha.
+    Rgba,
+}
+
+impl Channels {
+    /// Returns the number of samples of a pixel.
+    pub(crate) fn count(self) -> usize {
+        match self {
+            Self::Grey => 1,
+            Self::GreyAlpha | Self::GreyKeyed => 2,
+            Self::Rgb => 3,
+            Self::Rgba => 4,
+        }
+    }
+
+    /// Tells whether the last sample is alpha.
+    pub(crate) fn alpha(self) -> bool {
+        matches!(self, Self::GreyAlpha | Self::GreyKeyed | Self::Rgba)
+    }
+}
+
+/// What a piece of an image holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Layout {
+    /// Columns and rows.
+    pub(crate) size: Size,
+    /// The samples of a pixel.
+    pub(crate) channels: Channels,
+    /// The sample that means white, or opaque. Samples above 255 take two bytes, the high one first.
+    pub(crate) max: u16,
+    /// The white of the file itself, of which `max` is a multiple.
+    pub(crate) white: u16,
+}
+
+impl Layout {
+    /// Returns the bytes of a sample.
+    pub(crate) fn sample_bytes(&self) -> usize {
+        if self.max > 255 { 2 } else { 1 }
+    }
+
+    /// Returns the weights of samples that sum colours, and pass over alpha.
+    pub(crate) fn colour_sum(&self) -> [u32; 4] {
+        match self.channels {
+            Channels::Rgb | Channels::Rgba => [1, 1, 1, 0],
+            Channels::Grey | Channels::GreyAlpha | Channels::GreyKeyed => [1, 0, 0, 0],
+        }
+    }
+
+    /// Checks that there are as many pixels as the header claims.
+    ///
+    /// # Errors
+    /// An [`Error`] with both numbers.
+    pub(crate) fn require(&self, pixels: u64) -> Result<(), Error> {
+        match self.size.cells() {
+            claimed if pixels == claimed as u64 => Ok(()),
+            claimed => Err(Error::new(ErrorKind::CutShort, format!("holds {pixels} pixels"))
+                .with_value(pixels.to_string())
+                .allowing(", its header claims ", claimed.to_string())),
+        }
+    }
+
+    /// Returns the bytes of a pixel.
+    pub(crate) fn pixel_bytes(&self) -> usize {
+        self.sample_bytes() * self.channels.count()
+    }
+}
+
+/// What becomes of a PNG's colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Colours {
+    /// As they are meant: palettes are looked up, transparent colours become alpha.
+    Meant,
+    /// As they are meant, 16-bit samples cut to their high byte.
+    MeantIn8Bits,
+    /// As SDL_image gives them to ROS 1: 8 bits per sample; palettes without real alpha stay indices.
+    Sdl,
+}
+
+/// The most pixels of an image, by how it is stored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct MaxPixels {
+    /// Of a PGM, which is at least as long as it has pixels.
+    pub(crate) pgm: u64,
+    /// Of a PNG, which is compressed.
+    pub(crate) png: u64,
+}

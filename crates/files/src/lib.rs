@@ -1,0 +1,71 @@
+//! Occupancy maps as the field stores them, read into grids of [`mean_information`] and written from them.
+//!
+//! A ROS map of 2 x 2 cells: occupied, unknown, free, and grey 64, which nav2 reads as 75 percent. The information of its
+//! three observed cells is 1, 1 and 0.1887 bits.
+//!
+//! ```
+//! use mean_information_files::{Memory, Options, read_map_from, with_grid};
+//! use std::path::Path;
+//!
+//! let mut files = Memory::new();
+//! files.add("map.pgm", b"P5\n2 2\n255\n\x00\x7f\xff\x40".to_vec());
+//! let yaml = "image: map.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\n\
+//!             mode: scale\noccupied_thresh: 1\nfree_thresh: 0\n";
+//! files.add("map.yaml", yaml.as_bytes().to_vec());
+//!
+//! let map = read_map_from(&files, Path::new("map.yaml"), &Options::default())?;
+//! assert_eq!(map.resolution, Some(0.05));
+//! let (observed, mean) = with_grid!(&map.cells, grid => {
+//!     let tally = grid.tally();
+//!     (tally.observed(), f64::from(tally.mean_information()))
+//! });
+//! assert_eq!(observed, 3);
+//! assert_eq!(format!("{mean:.4}"), "0.7296");
+//! # Ok::<(), mean_information_files::Error>(())
+//! ```
+//!
+//! [`read_map`] takes a path on a disk, [`read_map_from`] any [`Source`] of files. [`read_map_contents`] counts the cells
+//! of an image and keeps none, for who only measures them. Nothing here measures, prints, or knows of a command line.
+//!
+//! A module depends only on those above it:
+//!
+//! | module | holds |
+//! |---|---|
+//! | `error` | [`Error`]: its kind, the file, the place in it, the value, what is allowed, the cause |
+//! | `options` | [`Options`]: how files are read |
+//! | `warning` | [`Warning`]: what makes a map mean less than it seems, with its figures |
+//! | `size` | sizes checked before memory is taken, and memory that grows with what was read |
+//! | `source` | [`Source`]: where files come from, a [`Disk`] or [`Memory`] |
+//! | `cells` | [`Cells`]: a grid in one of the encodings, and [`Counts`] of its values |
+//! | `map` | [`Map`]: cells, resolution, warnings |
+//! | `image` | PGM and PNG, from the top a piece at a time |
+//! | [`ros`] | ROS maps: a yaml file that describes an image |
+//! | [`npy`] | NumPy's arrays |
+//! | [`gridmap`] | MRPT's grid maps |
+//! | `read` | files by the ending of their names |
+//!
+//! The feature `clap` makes [`Semantics`], [`Mode`] and [`ArrayEncoding`] values of a command line's options.
+
+mod cells;
+mod error;
+pub mod gridmap;
+mod image;
+mod map;
+pub mod npy;
+mod options;
+mod read;
+pub mod ros;
+mod size;
+mod source;
+mod warning;
+
+pub use cells::{Cells, Contents, Counted, Counts, Readable};
+pub use error::{Error, ErrorKind, Place};
+pub use map::Map;
+pub use options::{ArrayEncoding, MAX_CELLS, MAX_COUNTED, Mode, Options, Semantics};
+pub use read::{
+    read_map, read_map_contents, read_map_contents_from, read_map_from, read_particles, read_particles_from,
+    read_weights, read_weights_from,
+};
+pub use source::{Disk, Memory, Opened, Source};
+pub use warning::Warning;

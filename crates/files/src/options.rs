@@ -1,0 +1,73 @@
+//! How files are read.
+
+/// The most cells that are kept of a map unless the caller says otherwise: 16384 x 16384, which take 2 GiB at
+/// 8 bytes each.
+pub const MAX_CELLS: u64 = 1 << 28;
+
+/// The most pixels of a compressed image that are counted unless the caller says otherwise: 131072 x 131072. They take
+/// no memory, but time, and a small file can hold a thousand times as many pixels as bytes.
+pub const MAX_COUNTED: u64 = 1 << 34;
+
+/// Whose rules turn grey levels into percentages.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
+pub enum Semantics {
+    /// `nav2_map_server`.
+    #[default]
+    Nav2,
+    /// ROS 1's `map_server`.
+    Ros1,
+}
+
+/// How a ROS map's grey levels are meant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
+pub enum Mode {
+    /// Free, occupied or unknown by two thresholds.
+    Trinary,
+    /// Percentages between the thresholds.
+    Scale,
+    /// The grey level is the percentage.
+    Raw,
+    /// The occupancy of the grey level, unquantised.
+    Probability,
+}
+
+/// What the numbers of an `.npy` array are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
+pub enum ArrayEncoding {
+    /// Occupancy probabilities (f32 or f64).
+    Probability,
+    /// ROS percentages (i8).
+    Percent,
+    /// Log-odds in nats (f32 or f64).
+    LogOdds,
+    /// MRPT's int8 log-odds of free (i8).
+    Mrpt,
+}
+
+/// How to read files. The default is nav2's rules, and everything else as the file says.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Options {
+    /// Whose rules turn the grey levels of a ROS map into percentages.
+    pub semantics: Semantics,
+    /// How the grey levels of a ROS map are meant; the file's own mode if absent.
+    pub mode: Option<Mode>,
+    /// In [`Mode::Probability`], the grey level (of the image's own depth) that means unknown.
+    pub unknown: Option<u16>,
+    /// What the numbers of an `.npy` array are; if absent, floats are probabilities and int8 are percentages.
+    pub encoding: Option<ArrayEncoding>,
+    /// The side of a cell of an `.npy` array in metres.
+    pub resolution: Option<f64>,
+    /// The most cells of a map, refused before any is read; if absent, [`MAX_CELLS`] where cells are kept, and where the
+    /// pixels of an image are only counted [`MAX_COUNTED`] for PNG and none for PGM, which is at least as long.
+    pub max_cells: Option<u64>,
+}
+
+impl Options {
+    /// Returns the most cells of a map whose cells are kept.
+    pub(crate) fn max_kept(&self) -> u64 {
+        self.max_cells.unwrap_or(MAX_CELLS)
+    }
+}

@@ -1,0 +1,122 @@
+//! Files by the ending of their names.
+
+use crate::cells::{Cells, Contents};
+use crate::error::{Error, ErrorKind};
+use crate::gridmap;
+use crate::map::Map;
+use crate::npy::{self, MapsVisitor};
+use crate::options::{Mode, Options};
+use crate::ros::{self, Sink};
+use crate::source::{Disk, ENDINGS, Opened, Source};
+use std::path::Path;
+
+/// Reads the map at `path` on the disk: as [`read_map_from`].
+///
+/// # Errors
+/// As [`read_map_from`].
+pub fn read_map(path: &Path, options: &Options) -> Result<Map, Error> {
+    read_map_from(&Disk, path, options)
+}
+
+/// Reads the map at `path` of `source`, by its file name ending: `.yaml`/`.yml`, `.npy`, `.gridmap`, `.gridmap.gz`.
+///
+/// # Errors
+/// An [`Error`] naming the file, what is wrong and what is allowed; [`ErrorKind::Options`] for a grey level for unknown
+/// outside [`Mode::Probability`].
+pub fn read_map_from(source: &impl Source, path: &Path, options: &Options) -> Result<Map, Error> {
+    read_as(source, path, options).map_err(|error| error.in_file(path))
+}
+
+/// Reads the map at `path` on the disk to measure it: as [`read_map_contents_from`].
+///
+/// # Errors
+/// As [`read_map_from`].
+pub fn read_map_contents(path: &Path, options: &Options) -> Result<Map<Contents>, Error> {
+    read_map_contents_from(&Disk, path, options)
+}
+
+/// Reads the map at `path` of `source` to measure it: as [`read_map_from`], but the cells of images are counted and not
+/// kept.
+///
+/// # Errors
+/// As [`read_map_from`].
+pub fn read_map_contents_from(
+    source: &impl Source,
+    path: &Path,
+    options: &Options,
+) -> Result<Map<Contents>, Error> {
+    read_as(source, path, options).map_err(|error| error.in_file(path))
+}
+
+/// Reads a map whose cells go where `C` puts them.
+fn read_as<C: From<Cells> + Sink>(
+    source: &impl Source,
+    path: &Path,
+    options: &Options,
+) -> Result<Map<C>, Error> {
+    if options.unknown.is_some() && options.mode != Some(Mode::Probability) {
+        let message = "a grey level for unknown needs mode probability; give both or neither";
+        return Err(Error::new(ErrorKind::Options, message));
+    }
+    let name = path.file_name().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+    let is = |endings: &[&str]| endings.iter().any(|&ending| name.ends_with(ending));
+    let Opened { input, length } = source.open(path)?;
+    let mut map = if is(&[".yaml", ".yml"]) {
+        ros::read(source, path, input, options)?
+    } else if is(&[".npy"]) {
+        npy::read(input, length, options)?.with()
+    } else if is(&[".gridmap", ".gridmap.gz"]) {
+        gridmap::read(input, options)?.with()
+    } else if is(&[".pgm", ".png"]) {
+        let message = "is only the image of a ROS map; give the yaml file that describes it";
+        return Err(Error::new(ErrorKind::Unsupported, message));
+    } else {
+        let refused = Error::new(ErrorKind::Unsupported, "is no map file by its name");
+        return Err(refused.with_value(name).allowing("; allowed are ", ENDINGS));
+    };
+    map.files.push(path.to_owned());
+    Ok(map)
+}
+
+/// Reads the maps of a filter's particles from the `.npy` array at `path` on the disk, and has `visitor` visit them.
+///
+/// # Errors
+/// As [`npy::read_stack`].
+pub fn read_particles<V: MapsVisitor>(
+    path: &Path,
+    options: &Options,
+    visitor: V,
+) -> Result<V::Output, Error> {
+    read_particles_from(&Disk, path, options, visitor)
+}
+
+/// Reads the maps of a filter's particles from the `.npy` array at `path` of `source`, and has `visitor` visit them.
+///
+/// # Errors
+/// As [`npy::read_stack`].
+pub fn read_particles_from<V: MapsVisitor>(
+    source: &impl Source,
+    path: &Path,
+    options: &Options,
+    visitor: V,
+) -> Result<V::Output, Error> {
+    let read = |file: Opened<_>| npy::read_stack(file.input, file.length, options, visitor);
+    source.open(path).and_then(read).map_err(|error| error.in_file(path))
+}
+
+/// Reads the weights of particles from the `.npy` array at `path` on the disk.
+///
+/// # Errors
+/// As [`npy::read_weights`].
+pub fn read_weights(path: &Path, options: &Options) -> Result<Vec<f64>, Error> {
+    read_weights_from(&Disk, path, options)
+}
+
+/// Reads the weights of particles from the `.npy` array at `path` of `source`.
+///
+/// # Errors
+/// As [`npy::read_weights`].
+pub fn read_weights_from(source: &impl Source, path: &Path, options: &Options) -> Result<Vec<f64>, Error> {
+    let read = |file: Opened<_>| npy::read_weights(file.input, file.length, options);
+    source.open(path).and_then(read).map_err(|error| error.in_file(path))
+}

@@ -1,0 +1,167 @@
+//! What the yaml file of a ROS map says.
+
+use super::yaml::{Value, values};
+use crate::error::{Error, ErrorKind, Place};
+use crate::options::{Mode, Semantics};
+use std::io::Read;
+
+/// The most bytes of a yaml file.
+const MOST_BYTES: u64 = 64 << 10;
+/// The keys that are read; the last is optional.
+const KEYS: [&str; 7] = ["image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh", "mode"];
+
+/// What a yaml file says of a map.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Description {
+    /// The image, relative to the folder of the yaml file or absolute.
+    pub image: String,
+    /// The side of a cell in metres.
+    pub resolution: f64,
+    /// The place of the lower left corner: x and y in metres, yaw in radians.
+    pub origin: [f64; 3],
+    /// Whether white is occupied.
+    pub negate: bool,
+    /// The occupancy above which a cell is occupied.
+    pub occupied_thresh: f64,
+    /// The occupancy below which a cell is free; less than `occupied_thresh`.
+    pub free_thresh: f64,
+    /// How grey levels are meant; trinary if the file does not say.
+    pub mode: Mode,
+}
+
+impl Description {
+    /// Reads a description; `semantics` says how `negate` may be spelt.
+    ///
+    /// # Errors
+    /// An [`Error`] naming the key, its value and what is allowed; also for anchors, aliases, files above 64 KiB and
+    /// files of several documents.
+    pub fn read(input: impl Read, semantics: Semantics) -> Result<Self, Error> {
+        let mut bytes = Vec::new();
+        input.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
+        if bytes.len() as u64 > MOST_BYTES {
+            let message = format!("is no map description: it is above {MOST_BYTES} bytes");
+            return Err(Error::new(ErrorKind::Format, message));
+        }
+        let text = std::str::from_utf8(&bytes).map_err(|error| {
+            let place = Place::Byte(error.valid_up_to() as u64);
+            Error::new(ErrorKind::Format, "is not UTF-8 text").at(place).caused_by(error)
+        })?;
+        let mut values = values(text, &KEYS)?;
+        let mut take = |key: &str| values.remove(key);
+
+        let image = scalar(take("image"), "image")?;
+        if image.is_empty() {
+            return Err(Error::new(ErrorKind::OutOfRange, "image is empty")
+                .at(Place::Key("image"))
+                .with_value("")
+                .allowing(", allowed is ", "the path of a PGM or PNG file"));
+        }
+        let resolution =
+            number(take("resolution"), "resolution", "a positive number of metres", |x| x > 0.0)?;
+        let origin = origin(take("origin"))?;
+        let negate = negate(&scalar(take("negate"), "negate")?, semantics)?;
+        let occupied_thresh = number(take("occupied_thresh"), "occupied_thresh", "a number", |_| true)?;
+        let free_thresh = number(take("free_thresh"), "free_thresh", "a number", |_| true)?;
+        if free_thresh >= occupied_thresh {
+            let allowed = format!("less than occupied_thresh, which is {occupied_thresh}");
+            return Err(
+                Error::out_of_range("free_thresh", free_thresh, allowed).at(Place::Key("free_thresh"))
+            );
+        }
+        let mode = match take("mode") {
+            None => Mode::Trinary,
+            value => mode(&scalar(value, "mode")?)?,
+        };
+        Ok(Self { image, resolution, origin, negate, occupied_thresh, free_thresh, mode })
+    }
+}
+
+/// Creates the error of a key that is absent.
+fn missing(key: &'static str) -> Error {
+    let needed = format!("{}, {} is optional", KEYS[..6].join(", "), KEYS[6]);
+    Error::new(ErrorKind::Format, format!("the key {key} is missing"))
+        .at(Place::Key(key))
+        .allowing("; needed are ", needed)
+}
+
+/// Takes the value of a key as one text.
+fn scalar(value: Option<Value>, key: &'static str) -> Result<String, Error> {
+    match value {
+        Some(Value::Scalar(text)) => Ok(text),
+        Some(Value::List(_)) => Err(Error::new(ErrorKind::Format, format!("{key} is a list"))
+            .at(Place::Key(key))
+            .allowing(", allowed is ", "one value")),
+        None => Err(missing(key)),
+    }
+}
+
+/// Takes the value of a key as a number that `is_allowed`.
+fn number(
+    value: Option<Value>,
+    key: &'static str,
+    allowed: &'static str,
+    is_allowed: impl Fn(f64) -> bool,
+) -> Result<f64, Error> {
+    let x = finite(&scalar(value, key)?, key, key, allowed)?;
+    if is_allowed(x) { Ok(x) } else { Err(Error::out_of_range(key, x, allowed).at(Place::Key(key))) }
+}
+
+/// Parses a finite number: `.nan`, `.inf` and words are none here. It is the value of `key`, or a part of it that is
+/// called `what`.
+fn finite(text: &str, what: &str, key: &'static str, allowed: &str) -> Result<f64, Error> {
+    match text.parse::<f64>() {
+        Ok(x) if x.is_finite() => Ok(x),
+        _ => Err(quoted(what, text, key).allowing(", allowed is ", format!("{allowed}, finite"))),
+    }
+}
+
+/// Creates the error of a text that is not allowed.
+fn quoted(what: &str, text: &str, key: &'static str) -> Error {
+    Error::new(ErrorKind::OutOfRange, format!("{what} is {text:?}")).with_value(text).at(Place::Key(key))
+}
+
+/// Takes the value of the origin.
+fn origin(value: Option<Value>) -> Result<[f64; 3], Error> {
+    let wrong = |what: String| {
+        Error::new(ErrorKind::Format, format!("origin {what}"))
+            .at(Place::Key("origin"))
+            .allowing(", allowed is ", "a list of three numbers, [x, y, yaw]")
+    };
+    let items = match value {
+        Some(Value::List(items)) => items,
+        Some(Value::Scalar(_)) => return Err(wrong("is one value".to_owned())),
+        None => return Err(missing("origin")),
+    };
+    let [x, y, yaw] = items.as_slice() else {
+        return Err(wrong(format!("has {} items", items.len())));
+    };
+    Ok([
+        finite(x, "x of the origin", "origin", "metres")?,
+        finite(y, "y of the origin", "origin", "metres")?,
+        finite(yaw, "yaw of the origin", "origin", "radians")?,
+    ])
+}
+
+/// Parses whether white is occupied. Both loaders take an integer; nav2 takes YAML 1.1's booleans as well.
+fn negate(text: &str, semantics: Semantics) -> Result<bool, Error> {
+    if let Ok(number) = text.parse::<i32>() {
+        return Ok(number != 0);
+    }
+    let wrong = |allowed: &'static str| quoted("negate", text, "negate").allowing(", allowed are ", allowed);
+    match (semantics, text.to_ascii_lowercase().as_str()) {
+        (Semantics::Nav2, "y" | "yes" | "true" | "on") => Ok(true),
+        (Semantics::Nav2, "n" | "no" | "false" | "off") => Ok(false),
+        (Semantics::Nav2, _) => Err(wrong("0, 1, true and false")),
+        (Semantics::Ros1, _) => Err(wrong("0 and 1 (nav2 semantics allow true and false)")),
+    }
+}
+
+/// Parses a mode.
+fn mode(text: &str) -> Result<Mode, Error> {
+    match text.to_ascii_lowercase().as_str() {
+        "trinary" => Ok(Mode::Trinary),
+        "scale" => Ok(Mode::Scale),
+        "raw" => Ok(Mode::Raw),
+        _ => Err(quoted("mode", text, "mode").allowing(", allowed are ", "trinary, scale and raw")),
+    }
+}

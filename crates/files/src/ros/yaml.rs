@@ -1,0 +1,142 @@
+//! The keys and values of a yaml file, read by events: no document is built, so a small file cannot become a large one.
+
+use crate::error::{Error, ErrorKind, Place};
+use saphyr_parser::{Event, Parser, StrInput};
+use std::collections::HashMap;
+
+/// The value of a key.
+pub(super) enum Value {
+    /// One text.
+    Scalar(String),
+    /// A list of texts.
+    List(Vec<String>),
+}
+
+/// Reads the values of `keys` of the one mapping that a text is; none of a text without documents.
+pub(super) fn values(text: &str, keys: &[&'static str]) -> Result<HashMap<&'static str, Value>, Error> {
+    Events { text, parser: Parser::new_from_str(text) }.values(keys)
+}
+
+/// The events of a file, without anchors and aliases.
+struct Events<'a> {
+    text: &'a str,
+    parser: Parser<'a, StrInput<'a>>,
+}
+
+impl<'a> Events<'a> {
+    /// Returns the next event.
+    fn next(&mut self) -> Result<Event<'a>, Error> {
+        let (event, span) = match self.parser.next_event() {
+            Some(Ok(next)) => next,
+            Some(Err(error)) => {
+                let line = error.marker().line();
+                // The parser refuses a tab, also a legal one, in words that do not say so.
+                let tabbed =
+                    self.text.lines().nth(line.saturating_sub(1)).is_some_and(|line| line.contains('\t'));
+                let what = if tabbed { "the line has a tab; write a space instead" } else { error.info() };
+                let message = format!("is malformed YAML in line {line}: {what}");
+                return Err(Error::new(ErrorKind::Format, message)
+                    .at(Place::Line(line as u64))
+                    .caused_by(error));
+            }
+            None => return Err(Error::new(ErrorKind::Format, "is malformed YAML: it ends too early")),
+        };
+        let anchor = match &event {
+            Event::Scalar(_, _, anchor, _)
+            | Event::SequenceStart(anchor, _)
+            | Event::MappingStart(anchor, _) => *anchor,
+            Event::Alias(_) => 1,
+            _ => 0,
+        };
+        if anchor != 0 {
+            let line = span.start.line();
+            let message = format!("line {line} has an anchor or alias; plain values are allowed");
+            return Err(Error::new(ErrorKind::Unsupported, message).at(Place::Line(line as u64)));
+        }
+        Ok(event)
+    }
+
+    /// Reads the values of `keys` of the one mapping that the file is.
+    fn values(mut self, keys: &[&'static str]) -> Result<HashMap<&'static str, Value>, Error> {
+        let mut values = HashMap::new();
+        loop {
+            match self.next()? {
+                Event::StreamStart | Event::DocumentStart(_) => {}
+                Event::MappingStart(..) => break,
+                Event::StreamEnd => return Ok(values),
+                _ => {
+                    return Err(Error::new(ErrorKind::Format, "is no map description")
+                        .allowing(": allowed are ", "lines of `key: value`"));
+                }
+            }
+        }
+        loop {
+            match self.next()? {
+                Event::MappingEnd => break,
+                Event::Scalar(name, ..) => {
+                    let value = self.value()?;
+                    let Some(&key) = keys.iter().find(|&&key| key == name) else {
+                        continue;
+                    };
+                    let Some(value) = value else {
+                        return Err(Error::new(ErrorKind::Format, format!("{key} is a mapping or nested"))
+                            .at(Place::Key(key))
+                            .allowing(", allowed is ", "a value"));
+                    };
+                    if values.insert(key, value).is_some() {
+                        return Err(Error::new(ErrorKind::Format, format!("the key {key} occurs twice"))
+                            .at(Place::Key(key))
+                            .allowing(", allowed is ", "once"));
+                    }
+                }
+                start => {
+                    self.nested(&start)?;
+                    self.value()?;
+                }
+            }
+        }
+        match (self.next()?, self.next()?) {
+            (Event::DocumentEnd, Event::StreamEnd) => Ok(values),
+            _ => Err(Error::new(ErrorKind::Unsupported, "holds more than one YAML document")
+                .allowing(", allowed is ", "one")),
+        }
+    }
+
+    /// Reads the next value; `None` if it is a mapping, or a list of other things than scalars.
+    fn value(&mut self) -> Result<Option<Value>, Error> {
+        match self.next()? {
+            Event::Scalar(text, ..) => Ok(Some(Value::Scalar(text.into_owned()))),
+            Event::SequenceStart(..) => {
+                let mut items = Some(Vec::new());
+                loop {
+                    match self.next()? {
+                        Event::SequenceEnd => return Ok(items.map(Value::List)),
+                        Event::Scalar(text, ..) => {
+                            if let Some(items) = &mut items {
+                                items.push(text.into_owned());
+                            }
+                        }
+                        start => {
+                            self.nested(&start)?;
+                            items = None;
+                        }
+                    }
+                }
+            }
+            start => self.nested(&start).map(|()| None),
+        }
+    }
+
+    /// Passes over the rest of a collection.
+    fn nested(&mut self, start: &Event<'_>) -> Result<(), Error> {
+        let mut depth = i64::from(matches!(start, Event::SequenceStart(..) | Event::MappingStart(..)));
+        while depth > 0 {
+            depth += match self.next()? {
+                Event::SequenceStart(..) | Event::MappingStart(..) => 1,
+                Event::SequenceEnd | Event::MappingEnd => -1,
+                _ => 0,
+            };
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,132 @@
+//! What a reader noticed that makes a map mean less than it seems, with its figures.
+
+use crate::options::Mode;
+use std::fmt;
+
+/// The grey level, of 255, that map savers write for unknown.
+pub(crate) const SAVED_UNKNOWN: u8 = 205;
+
+/// What a reader noticed that makes a map mean less than it seems. It displays as a sentence; what to do about it is
+/// added by who knows how options are given.
+///
+/// ```
+/// use mean_information_files::{Mode, Warning};
+/// let warning =
+///     Warning::SavedUnknownReadAs { grey: 205, percent: 0, count: 17, mode: Mode::Trinary, free_thresh: Some(0.25) };
+/// let text = "17 cells of grey 205, which map savers write for unknown, read as free under free_thresh 0.25; \
+///             a free_thresh of 0.196 keeps that grey unknown";
+/// assert_eq!(warning.to_string(), text);
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Warning {
+    /// In raw mode, cells outside 0 to 100 that are not unknown are read as unknown.
+    OutOfRangeReadAsUnknown {
+        /// How many cells.
+        count: u64,
+    },
+    /// Cells of the grey that map savers write for unknown, 205 of 255, are read as something else.
+    SavedUnknownReadAs {
+        /// The grey, of the image's own depth.
+        grey: u16,
+        /// What it is read as.
+        percent: i8,
+        /// How many cells.
+        count: u64,
+        /// The mode that it is read in.
+        mode: Mode,
+        /// The `free_thresh` that makes it free, where a lower one would keep it unknown.
+        free_thresh: Option<f64>,
+    },
+    /// In probability mode, cells of a grey that often means unknown are observed.
+    OftenUnknownObserved {
+        /// The grey, of the image's own depth.
+        grey: u16,
+        /// How many cells.
+        count: u64,
+    },
+    /// nav2's loader may take the levels of an image of 16 bits for others by 1 of 255.
+    SixteenBits,
+    /// nav2's loader may take the levels of a PGM of this maximum value for others.
+    PgmMaximum {
+        /// The maximum value of its header.
+        white: u16,
+    },
+    /// ROS 1's loader refuses a PGM of this maximum value.
+    PgmMaximumRefused {
+        /// The maximum value of its header.
+        white: u16,
+    },
+    /// The indices of a palette are read as grey levels, as in ROS 1's loader.
+    PaletteIndices,
+    /// Bytes 127 and 128 of an MRPT map before version 3 are read as unknown, as MRPT does.
+    HalvesReadAsUnknown {
+        /// How many cells.
+        count: u64,
+        /// The version of the map.
+        version: u8,
+    },
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::OutOfRangeReadAsUnknown { count } => {
+                let cells = cells_in_words(count);
+                write!(f, "{cells} outside 0 to 100 and other than unknown (-1 or 255), read as unknown")
+            }
+            Self::SavedUnknownReadAs { percent, count, mode, free_thresh, .. } => {
+                let (cells, read) = (cells_in_words(count), state_in_words(percent));
+                write!(
+                    f,
+                    "{cells} of grey {SAVED_UNKNOWN}, which map savers write for unknown, read as {read}"
+                )?;
+                match free_thresh {
+                    Some(thresh) => write!(
+                        f,
+                        " under free_thresh {thresh}; a free_thresh of 0.196 keeps that grey unknown"
+                    ),
+                    None if mode == Mode::Scale => write!(f, "; mode scale has no grey for unknown"),
+                    None => Ok(()),
+                }
+            }
+            Self::OftenUnknownObserved { grey, count } => {
+                write!(f, "{} of grey {grey} counted as observed", cells_in_words(count))
+            }
+            Self::SixteenBits => {
+                write!(f, "the image has 16 bits: nav2_map_server may take its levels for others by 1 of 255")
+            }
+            Self::PgmMaximum { white } => write!(
+                f,
+                "the PGM's maximum value is {white}: nav2_map_server may take its levels for others"
+            ),
+            Self::PgmMaximumRefused { white } => write!(
+                f,
+                "ROS 1's map_server refuses a PGM of maximum value {white}; its levels are read as of 255"
+            ),
+            Self::PaletteIndices => write!(
+                f,
+                "the image has a palette: as in ROS 1's map_server, its indices are read as grey levels"
+            ),
+            Self::HalvesReadAsUnknown { count, version } => write!(
+                f,
+                "{} of 127 or 128 of 255, read as unknown as MRPT does: version {version} cannot store 1/2",
+                cells_in_words(count)
+            ),
+        }
+    }
+}
+
+/// Returns a count of cells in words.
+fn cells_in_words(count: u64) -> String {
+    if count == 1 { "1 cell".to_owned() } else { format!("{count} cells") }
+}
+
+/// Returns a percentage in words.
+fn state_in_words(percent: i8) -> String {
+    match percent {
+        0 => "free".to_owned(),
+        100 => "occupied".to_owned(),
+        percent => format!("{percent} percent"),
+    }
+}

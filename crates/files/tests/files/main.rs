@@ -1,0 +1,14 @@
+//! Reading files: real maps, maps written by the tests, and files that must be refused.
+
+mod arrays;
+mod bad;
+mod errors;
+mod gridmaps;
+mod images;
+mod png_kinds;
+mod real;
+mod rules;
+mod seeds;
+mod sources;
+mod support;
+mod warnings;

@@ -1,0 +1,11 @@
+//! Maps made on the spot, whole or broken, and folders for them.
+
+mod folder;
+mod gridmap;
+mod map;
+mod png;
+
+pub use folder::{Folder, shared_data};
+pub use gridmap::{GridMap, gzip};
+pub use map::{npy, pgm, yaml};
+pub use png::{raw_png, zlib};

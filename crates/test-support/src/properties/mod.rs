@@ -1,0 +1,18 @@
+//! The properties that fuzzing tries to break: each takes any bytes and panics if one does not hold.
+//!
+//! `fuzz/` has a target for each; `cargo test` replays the committed seeds on them, on stable.
+
+mod builders;
+#[cfg(feature = "formats")]
+mod formats;
+mod grid;
+mod integral;
+mod room;
+mod tally;
+
+pub use builders::{expected, scan};
+#[cfg(feature = "formats")]
+pub use formats::{gridmap, npy, pgm, png, stack, yaml};
+pub use grid::grid;
+pub use integral::integrate;
+pub use room::room;

@@ -4,7 +4,7 @@ use crate::hex_float;
 use mean_information::Real;
 use std::str::FromStr;
 
-/// A positive, finite number of metres: decimal, or a hexadecimal float for exactly that number.
+/// Parses a positive, finite number of metres: decimal, or a hexadecimal float for exactly that number.
 pub(super) fn positive<T: Real + FromStr>(text: &str) -> Result<T, String> {
     let number: T = if text.to_ascii_lowercase().contains("0x") {
         hex_float::parse(text).map_err(|error| error.to_string())?

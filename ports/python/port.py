@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Mean information of occupancy maps, in one file to read and to start from. Needs Python 3.8 and NumPy.
+"""Mean information of occupancy maps, in one file to read and to start from. Needs Python 3.8 and no package.
 
     I(p) = 1 - H(p),  H(p) = -p log2 p - (1-p) log2 (1-p)          Eqs. 1, 3: one cell, in bits
     mean information = sum of I / number of cells with p != 1/2    Eqs. 2, 4: a map
@@ -10,7 +10,7 @@ takes and returns Python floats; `fmt` says which floats these are, F64 or F32. 
 exact ones, because every formula is evaluated in decimals until its error no longer matters (`correctly_rounded`).
 Limits are exact to 25 digits before they are rounded.
 
-As a program, `python3 mean_information.py` serves the port protocol on standard input and output.
+As a program, `python3 port.py` serves the port protocol on standard input and output.
 """
 
 import json
@@ -20,8 +20,6 @@ from collections import Counter, namedtuple
 from decimal import Context, Decimal, getcontext, localcontext
 from fractions import Fraction
 from functools import lru_cache
-
-import numpy as np
 
 # Bits of a significand; the smallest positive float and the least number above all floats, as exponents of 2.
 Format = namedtuple("Format", "bits lowest beyond")
@@ -289,14 +287,28 @@ def grid_cartesian(range_, sigma, resolution, offset_x, offset_y, fmt):
     # Whole cells do not matter. From here on in units of 1 / scale of a cell, in which all places are integers.
     x, y = Fraction(offset_x) % 1, Fraction(offset_y) % 1
     scale = max(x.denominator, y.denominator)
-    cells = range(-int(reach) - 2, int(reach) + 2)
-    columns, rows = ([int((i + offset) * scale) for i in cells] for offset in (x, y))
-    # In floats, to leave out what is beyond reach and to count what is certain.
-    distance = np.hypot(*np.meshgrid([c / scale for c in columns], [r / scale for r in rows]))
-    certain = distance < float((z - CERTAIN * s) / h)
-    squares = Counter(columns[i] ** 2 + rows[j] ** 2 for j, i in np.argwhere((distance < float(reach)) & ~certain))
+    x, y = int(x * scale), int(y * scale)
+    # The squares of two radii: cells up to `near` are certain, those beyond `far` unknown.
+    near = math.ceil((max(z - CERTAIN * s, 0) / h * scale) ** 2) - 1
+    far = math.floor((reach * scale) ** 2)
+    certain, squares = 0, Counter()
+    for row in places(y, math.isqrt(far), scale):
+        columns = places(x, half_chord(far, row), scale)
+        inside = places(x, half_chord(near, row), scale)
+        certain += len(inside)
+        squares.update(row * row + column * column for column in columns if column not in inside)
     distances = {Fraction(square, scale * scale): count for square, count in squares.items()}
-    return room_mean_information(distances, range_, sigma, resolution, fmt, int(certain.sum()))
+    return room_mean_information(distances, range_, sigma, resolution, fmt, certain)
+
+
+def places(offset, half_width, step):
+    """The integers from -half_width to half_width that are `offset` and whole steps."""
+    return range(-half_width + (offset + half_width) % step, half_width + 1, step)
+
+
+def half_chord(square, row):
+    """How far a disc reaches along a row; -1 if it does not reach the row. `square` is that of its radius."""
+    return math.isqrt(square - row * row) if row * row <= square else -1
 
 
 def room_mean_information(distances, range_, sigma, resolution, fmt, certain=0):

@@ -1,5 +1,6 @@
 //! The mean information of grids of a circular room against the size of their cells, and the limit they tend to.
 
+use crate::measures::Measures;
 use crate::output::{Number, Record, Report, Value, short, table};
 use crate::progress::Progress;
 use clap::ValueEnum;
@@ -8,7 +9,7 @@ use mean_information::limit::{Weight, bounds, closed_form};
 use mean_information::room::{CartesianRoom, PolarRoom};
 use mean_information::sensor::GaussianSensor;
 
-/// How a room is cut into cells.
+/// The way a room is cut into cells.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum GridKind {
     /// Rings of equal width about the robot.
@@ -19,10 +20,10 @@ pub enum GridKind {
 }
 
 impl GridKind {
-    /// Both.
+    /// The two kinds.
     pub const ALL: [Self; 2] = [Self::Polar, Self::Cartesian];
 
-    /// As the command line calls it.
+    /// Returns its name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Polar => "polar",
@@ -30,7 +31,7 @@ impl GridKind {
         }
     }
 
-    /// As prose calls it.
+    /// Returns its name in prose.
     pub fn adjective(self) -> &'static str {
         match self {
             Self::Polar => "polar",
@@ -38,7 +39,7 @@ impl GridKind {
         }
     }
 
-    /// The weight of the integral that its cells tend to.
+    /// Returns the weight of the integral that its cells tend to.
     fn weight(self) -> Weight {
         match self {
             Self::Polar => Weight::Radial,
@@ -46,7 +47,7 @@ impl GridKind {
         }
     }
 
-    /// How far a grid of cells of this size can be from the limit.
+    /// Returns the proved bound on the distance of a grid of cells of this size from the limit.
     fn bound(self, sensor: &GaussianSensor<f64>, resolution: f64) -> Result<f64, Error> {
         match self {
             Self::Polar => bounds::polar(sensor, resolution),
@@ -69,11 +70,11 @@ pub struct Convergence {
 /// The grids of one kind, from coarse to fine.
 #[derive(Debug)]
 pub struct Series {
-    /// How the room is cut.
+    /// The way the room is cut.
     pub kind: GridKind,
-    /// What the mean information tends to, in bits per cell.
+    /// The limit of the mean information, in bits per cell.
     pub limit: f64,
-    /// By cell size, as they were given.
+    /// The grids, in the order in which their cell sizes were given.
     pub rows: Vec<Row>,
     /// The proved band: the decimal logarithm of a cell size, and how far a grid of it can be from the limit; from the smallest
     /// size of the rows to the largest.
@@ -83,25 +84,25 @@ pub struct Series {
 /// The steps of a band.
 const STEPS: u32 = 100;
 
-/// One grid.
+/// A grid of one cell size.
 #[derive(Debug)]
 pub struct Row {
     /// The side of a cell, or the width of a ring, in metres.
     pub resolution: f64,
-    /// In bits per observed cell.
+    /// The mean information, in bits per observed cell.
     pub mean_information: f64,
     /// Observed cells; of a polar map, rings.
     pub observed: u64,
     /// Mean information less the limit.
     pub error: f64,
-    /// What the magnitude of the error is proved not to exceed, before a cell is counted.
+    /// The proved bound on the magnitude of the error, before a cell is counted.
     pub bound: f64,
     /// The same, once the observed cells are counted.
     pub bound_of_count: f64,
 }
 
 impl Row {
-    /// Whether the error is within both bounds.
+    /// Returns whether the error is within both bounds.
     pub fn holds(&self) -> bool {
         self.error.abs() <= self.bound.min(self.bound_of_count)
     }
@@ -140,7 +141,7 @@ impl Series {
         Ok(Self { kind, limit, rows, band })
     }
 
-    /// The band from the smallest of these sizes to the largest.
+    /// Returns the band from the smallest of these sizes to the largest.
     fn band(
         kind: GridKind,
         sensor: &GaussianSensor<f64>,
@@ -166,7 +167,7 @@ impl Convergence {
         &self.series[0]
     }
 
-    /// Whether every error is within its bound.
+    /// Returns whether every error is within its bound.
     pub fn holds(&self) -> bool {
         self.series.iter().flat_map(|series| &series.rows).all(Row::holds)
     }
@@ -191,7 +192,7 @@ impl Report for Convergence {
         let header = [
             "cell size\n(m)",
             "observed\ncells",
-            "mean information\n(bits / cell)",
+            Measures::MEAN_INFORMATION_HEAD,
             "error\n(bits / cell)",
             "proved bound\n(bits / cell)",
             "bound given\nthe count",

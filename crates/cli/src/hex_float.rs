@@ -100,7 +100,7 @@ fn parse_exponent(text: &str) -> Result<i64, ParseError> {
     Ok(text.parse().unwrap_or(limit))
 }
 
-/// Why a text is not a number of the format asked for.
+/// The reason why a text is not a number of the format asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ParseError {
     /// Not a hexadecimal float, `inf` or `nan`.

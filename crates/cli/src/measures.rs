@@ -102,6 +102,9 @@ impl Measures {
         resolution.map(|side| self.observed() as f64 * (side * side)).filter(|area| area.is_finite())
     }
 
+    /// The head of a table's column of mean information.
+    pub(crate) const MEAN_INFORMATION_HEAD: &str = "mean information\n(bits / cell)";
+
     /// Returns the entries of a record of the map, whose cells have the given side in metres.
     pub fn entries(&self, resolution: Option<f64>) -> [(&'static str, Value); 11] {
         [

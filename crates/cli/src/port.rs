@@ -8,7 +8,7 @@ use serde::Deserialize;
 use serde_json::Value as Json;
 use std::io::{self, BufRead, Write};
 
-/// Longer requests are not read: some million cells.
+/// The longest request that is read, in bytes: some million cells.
 const LINE_LIMIT: usize = 1 << 26;
 
 /// Answers the requests of `input` until one says stop, or until there are no more.
@@ -35,7 +35,7 @@ fn serve_lines(mut input: impl BufRead, mut output: impl Write, limit: usize) ->
     }
 }
 
-/// The answer to a line, in a line; none if it says stop.
+/// Returns the answer to a line, in a line; none if it says stop.
 pub fn answer(line: &[u8]) -> Option<String> {
     let Ok(message) = serde_json::from_slice::<Json>(line) else { return Some(malformed(None)) };
     match Request::deserialize(&message) {
@@ -51,7 +51,7 @@ fn malformed(seq: Option<u64>) -> String {
     Answer::new(seq, Reply::error(errors::MALFORMED)).line()
 }
 
-/// What the library says of itself as a port: both formats, all operations.
+/// Returns what the library says of itself as a port: both formats, all operations.
 pub fn welcome() -> Welcome {
     Welcome {
         protocol: VERSION,
@@ -64,7 +64,7 @@ pub fn welcome() -> Welcome {
     }
 }
 
-/// What the library computes.
+/// Computes the reply to a request.
 pub fn reply(run: &Run) -> Reply {
     let Some(operation) = operations::find(&run.op) else { return Reply::error(errors::OPERATION) };
     match run.format.as_str() {

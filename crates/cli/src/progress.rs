@@ -11,11 +11,11 @@ const DELAY: Duration = Duration::from_secs(1);
 const TICK: Duration = Duration::from_millis(100);
 const STYLE: &str = "{spinner} [{elapsed}] {pos} of {len}: {wide_msg}";
 
-/// How far a command is. The bar goes when this is dropped.
+/// A bar that shows how far a command is. It goes when this is dropped.
 pub(crate) struct Progress(ProgressBar);
 
 impl Progress {
-    /// Work of so many steps, which begins now.
+    /// Begins work of so many steps.
     pub(crate) fn new(steps: usize) -> Self {
         let bar = ProgressBar::with_draw_target(Some(steps as u64), ProgressDrawTarget::hidden());
         if let Ok(style) = ProgressStyle::with_template(STYLE) {

@@ -12,36 +12,36 @@ use crate::hex_float;
 use mean_information::Real;
 use mean_information::operations::{self, Operation, Shape};
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
+use serde_json::Value as Json;
 use std::collections::BTreeMap;
 use std::io::{self, BufRead, Read};
 
 /// The version.
 pub const VERSION: u64 = 1;
 
-/// What a port is asked.
+/// A request to a port.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "cmd", rename_all = "lowercase")]
 pub enum Request {
-    /// Which protocol is spoken; the port says what it can do.
+    /// The version of the protocol; the port answers with what it can do.
     Start {
         /// [`VERSION`].
         protocol: u64,
     },
-    /// One operation.
+    /// An operation to compute.
     Run(Run),
-    /// That was all.
+    /// The end of the conversation.
     Stop,
 }
 
 impl Request {
-    /// The request in a line.
+    /// Returns the request in a line.
     pub fn line(&self) -> String {
         to_line(self)
     }
 }
 
-/// One operation, to be computed.
+/// An operation to be computed, with its arguments.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Run {
     /// The number that the answer repeats.
@@ -64,7 +64,7 @@ pub type Arguments = BTreeMap<String, Argument>;
     expecting = "an argument is a hexadecimal float in a string, a list of them, or a list of lists"
 )]
 pub enum Argument {
-    /// One float.
+    /// A float.
     Float(String),
     /// Floats.
     List(Vec<String>),
@@ -82,7 +82,7 @@ impl Argument {
     }
 }
 
-/// The values of an operation's arguments, in its order.
+/// Parses the values of an operation's arguments, in its order.
 ///
 /// # Errors
 /// One that is missing, that the operation does not have, of another shape, or that is no float of the format: in words.
@@ -121,32 +121,32 @@ pub fn values<T: Real>(
     operation.arguments.iter().map(value).collect()
 }
 
-/// What a port says of itself: the answer to [`Request::Start`].
+/// The answer to [`Request::Start`]: what a port says of itself.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Welcome {
     /// The version it speaks.
     pub protocol: u64,
-    /// Its name.
+    /// The port's name.
     #[serde(default)]
     pub name: String,
-    /// What it is written in.
+    /// The language it is written in.
     #[serde(default)]
     pub language: String,
-    /// Its own version.
+    /// The port's own version.
     #[serde(default)]
     pub version: String,
     /// The formats it computes in.
     pub formats: Vec<String>,
     /// The operations it has.
     pub ops: Vec<String>,
-    /// How many ulp its results may be off, where that is more than the contract allows, by operation or by a pattern
+    /// The error that it claims, in ulp, where that is more than the contract allows, by operation or by a pattern
     /// with `*`.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub claims: BTreeMap<String, f64>,
 }
 
 impl Welcome {
-    /// In a line.
+    /// Returns the message in a line.
     pub fn line(&self) -> String {
         to_line(self)
     }
@@ -159,17 +159,17 @@ pub struct Answer {
     pub seq: Option<u64>,
     /// A hexadecimal float in a string, or an integer.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub result: Option<Value>,
-    /// Why there is none, in a word: [`errors`].
+    pub result: Option<Json>,
+    /// The reason why there is none, in a word of [`errors`].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub error: Option<String>,
-    /// Why it was not computed, in words.
+    /// The reason why it was not computed, in words.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub skipped: Option<String>,
 }
 
 impl Answer {
-    /// A result, an error or a reason why it was skipped.
+    /// Creates an answer from a result, an error or a reason why it was skipped.
     pub fn new(seq: impl Into<Option<u64>>, reply: Reply) -> Self {
         let mut answer = Self { seq: seq.into(), result: None, error: None, skipped: None };
         match reply {
@@ -180,7 +180,7 @@ impl Answer {
         answer
     }
 
-    /// The one of the three that is there.
+    /// Returns the one of the three that is there.
     ///
     /// # Errors
     /// How many there are, if not one.
@@ -191,17 +191,17 @@ impl Answer {
         if parts.len() > 1 { Err(parts.len()) } else { parts.pop().ok_or(0) }
     }
 
-    /// In a line.
+    /// Returns the message in a line.
     pub fn line(&self) -> String {
         to_line(self)
     }
 }
 
-/// What an answer says.
+/// The content of an answer.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Reply {
     /// A float as a string, or a count.
-    Result(Value),
+    Result(Json),
     /// A word of [`errors`].
     Error(String),
     /// A reason.
@@ -209,7 +209,7 @@ pub enum Reply {
 }
 
 impl Reply {
-    /// An error, by its word.
+    /// Creates an error by its word.
     pub fn error(word: &str) -> Self {
         Self::Error(word.to_owned())
     }
@@ -231,7 +231,7 @@ pub mod errors {
     pub const PROTOCOL: &str = "protocol";
 }
 
-/// JSON without the end of the line.
+/// Returns JSON without the end of the line.
 fn to_line(message: &impl Serialize) -> String {
     // Strings, numbers and lists under string keys: serialisation cannot fail.
     serde_json::to_string(message).unwrap_or_default()
@@ -248,7 +248,7 @@ pub enum Line {
     End,
 }
 
-/// The next line, of at most `limit` bytes, which is all that is ever held of it.
+/// Reads the next line, of at most `limit` bytes, which is all that is ever held of it.
 ///
 /// # Errors
 /// Those of the reader.

@@ -101,18 +101,18 @@ fn check(options: &[&str], file: &Path) -> (i32, Value) {
     (output.status.code().unwrap(), verdict)
 }
 
-fn has_numpy() -> bool {
-    let found = Command::new("python3").args(["-c", "import numpy"]).output();
+fn has_python() -> bool {
+    let found = Command::new("python3").arg("--version").output();
     let has = found.is_ok_and(|output| output.status.success());
     if !has {
-        eprintln!("skipped: there is no python3 with NumPy");
+        eprintln!("skipped: there is no python3");
     }
     has
 }
 
 #[test]
 fn the_port_without_faults_passes() {
-    if has_numpy() {
+    if has_python() {
         let (status, verdict) = check(&[], Path::new(PORT));
         assert_eq!(
             (status, &verdict["failed"], &verdict["undeclared"]),
@@ -125,7 +125,7 @@ fn the_port_without_faults_passes() {
 fn every_planted_fault_is_named() {
     let faults = faults();
     assert!(faults.len() > 150);
-    if !has_numpy() {
+    if !has_python() {
         return;
     }
     let port = fs::read_to_string(PORT).unwrap();

@@ -9,11 +9,12 @@
 //!   format have as have any explains the share `P` of that format's other failures, too;
 //! * `2 P R / (P + R)`, times a weight below 1, for anything else.
 
+use super::candidate::{Candidate, Case, Kind, indices};
 use super::facts::facts;
-use super::judge::{Answered, Judged};
-use super::values::{Format, Trap};
-use super::vectors::{Test, Vectors};
-use super::{Verdict, Wrong};
+use super::judge::Answered;
+use super::values::{FloatFormat, Trap};
+use super::vectors::Vectors;
+use super::{TestFailure, Verdict};
 use crate::hex_float;
 use std::collections::{HashMap, HashSet};
 
@@ -21,91 +22,40 @@ use std::collections::{HashMap, HashSet};
 const TRAP_WIDTH: f64 = f64::EPSILON * 4_294_967_296.0; // 2^-20
 /// A flag says something if its tests fail so many times as often as those without it.
 const LIFT: usize = 2;
-/// Where failures are says less than what they are.
+/// The weight of a flag: where failures are says less than what they are.
 const FLAG_WEIGHT: f64 = 0.7;
 /// After a trap that explains so many of the failures no other cause is needed.
 const WHOLE: f64 = 0.9;
 
-/// What some failures have in common.
+/// A cause: what some failures have in common.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cause {
-    /// What tells it.
+    /// The kind of evidence.
     pub kind: Kind,
-    /// Its name among the flags or traps, or of the fact.
+    /// The name of the flag, of the trap or of the fact.
     pub name: String,
-    /// What is wrong, or what the tests are about.
+    /// The mistake, or the subject of the tests, in words.
     pub note: String,
-    /// How many failures it explains.
+    /// The number of failures that it explains.
     pub explained: usize,
-    /// On how many answered tests it should show.
+    /// The number of answered tests on which it should show.
     pub tests: usize,
-    /// Of a flag: how many of the tests without it failed, and how many there are.
+    /// The failures among tests without the flag, and the number of these tests; for flags only.
     pub elsewhere: Option<(usize, usize)>,
-    /// How likely it is, from 0 to 1.
+    /// The score, from 0 to 1.
     pub score: f64,
-    /// Whether likelier causes explain all that it explains.
+    /// True if likelier causes explain all that it explains.
     pub redundant: bool,
 }
 
-/// What tells a cause.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// Answers have the value that a known mistake gives.
-    Trap,
-    /// Tests of one flag fail, others less.
-    Flag,
-    /// The answers themselves.
-    Fact,
-}
-
-impl Kind {
-    /// In a word.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Trap => "trap",
-            Self::Flag => "flag",
-            Self::Fact => "fact",
-        }
-    }
-}
-
-/// A test that was run, and how it ended.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Case<'a> {
-    pub(super) test: &'a Test,
-    /// None if the answer was right.
-    pub(super) wrong: Option<&'a Wrong>,
-    /// The answer, if there was one.
-    pub(super) judged: Option<&'a Judged>,
-}
-
-impl<'a> Case<'a> {
-    /// The wrong answer, if one was given.
-    pub(super) fn answer(self) -> Option<&'a Judged> {
-        self.judged.filter(|judged| !judged.right)
-    }
-}
-
-/// A cause before it is ranked: which cases it explains.
-pub(super) struct Candidate {
-    pub(super) kind: Kind,
-    pub(super) name: String,
-    pub(super) note: String,
-    pub(super) explained: Vec<usize>,
-    pub(super) tests: usize,
-    pub(super) elsewhere: Option<(usize, usize)>,
-    /// Of a cause that is no trap.
-    pub(super) weight: f64,
-}
-
-/// The causes of an operation's failures, the most likely one first.
+/// Returns the causes of an operation's failures, the most likely one first.
 pub(super) fn diagnose(vectors: &Vectors, verdicts: &[Verdict]) -> Vec<Cause> {
     let run = vectors.tests.iter().zip(verdicts).filter_map(|(test, verdict)| match verdict {
-        Verdict::Passed(judged) => Some(Case { test, wrong: None, judged: Some(judged) }),
-        Verdict::Failed(wrong) | Verdict::Known(wrong) => match wrong {
-            Wrong::Answer(judged) => Some(Case { test, wrong: Some(wrong), judged: Some(judged) }),
-            Wrong::Trouble(_) => Some(Case { test, wrong: Some(wrong), judged: None }),
-            Wrong::NotRun(_) => None,
+        Verdict::Passed(judged) => Some(Case { test, failure: None, judged: Some(judged) }),
+        Verdict::Failed(failure) | Verdict::Known(failure) => match failure {
+            TestFailure::Answer(judged) => Some(Case { test, failure: Some(failure), judged: Some(judged) }),
+            TestFailure::Port(_) => Some(Case { test, failure: Some(failure), judged: None }),
+            TestFailure::NotRun(_) => None,
         },
         Verdict::Skipped(_) => None,
     });
@@ -118,7 +68,7 @@ pub(super) fn diagnose(vectors: &Vectors, verdicts: &[Verdict]) -> Vec<Cause> {
 }
 
 fn rank(cases: &[Case<'_>], candidates: Vec<Candidate>) -> Vec<Cause> {
-    let failures = cases.iter().filter(|case| case.wrong.is_some()).count();
+    let failures = cases.iter().filter(|case| case.failure.is_some()).count();
     let recall = |c: &Candidate| match c.kind {
         Kind::Trap => explained_by(cases, c) / failures as f64,
         Kind::Flag | Kind::Fact => c.explained.len() as f64 / failures as f64,
@@ -149,15 +99,10 @@ fn rank(cases: &[Case<'_>], candidates: Vec<Candidate>) -> Vec<Cause> {
     causes.collect()
 }
 
-/// The indices of the cases for which this holds.
-pub(super) fn indices(cases: &[Case<'_>], holds: impl Fn(Case<'_>) -> bool) -> Vec<usize> {
-    (0..cases.len()).filter(|&index| holds(cases[index])).collect()
-}
-
 fn trap(cases: &[Case<'_>], name: &str, note: &str) -> Option<Candidate> {
     let explained = indices(cases, |case| {
         let value = case.test.traps.get(name);
-        value.zip(case.answer()).is_some_and(|(trap, judged)| is_caught(*trap, &judged.answer))
+        value.zip(case.wrong_answer()).is_some_and(|(trap, judged)| is_caught(*trap, &judged.answer))
     });
     let tests = cases.iter().filter(|case| case.judged.is_some() && case.test.traps.contains_key(name));
     (!explained.is_empty()).then(|| Candidate {
@@ -171,7 +116,7 @@ fn trap(cases: &[Case<'_>], name: &str, note: &str) -> Option<Candidate> {
     })
 }
 
-/// Whether the answer is that of the trap.
+/// Returns whether the answer is that of the trap.
 fn is_caught(trap: Trap, answer: &Answered) -> bool {
     match (trap, answer) {
         (Trap::Count(trap), Answered::Count(count)) => trap == *count,
@@ -189,9 +134,9 @@ fn is_near(trap: f64, answer: f64) -> bool {
         || trap.is_finite() && (answer - trap).abs() <= TRAP_WIDTH * trap.abs()
 }
 
-/// About how many failures a trap explains, also among those of tests that lack it because enough have it.
+/// Estimates how many failures a trap explains, also among tests that lack it because enough have it.
 fn explained_by(cases: &[Case<'_>], trap: &Candidate) -> f64 {
-    let of_format = |format: Format| {
+    let of_format = |format: FloatFormat| {
         let in_format = |case: &&Case<'_>| case.test.format == format;
         let mut having: HashMap<&str, usize> = HashMap::new();
         for name in cases.iter().filter(in_format).flat_map(|case| case.test.traps.keys()) {
@@ -203,17 +148,17 @@ fn explained_by(cases: &[Case<'_>], trap: &Candidate) -> f64 {
         if own == 0 || own < most {
             return explained;
         }
-        let failures = cases.iter().filter(in_format).filter(|case| case.wrong.is_some()).count();
+        let failures = cases.iter().filter(in_format).filter(|case| case.failure.is_some()).count();
         explained / own as f64 * failures as f64
     };
-    [Format::F32, Format::F64].into_iter().map(of_format).sum()
+    [FloatFormat::F32, FloatFormat::F64].into_iter().map(of_format).sum()
 }
 
 fn flag(cases: &[Case<'_>], name: &str, note: &str) -> Option<Candidate> {
     let has = |case: Case<'_>| case.test.flags.iter().any(|flag| flag == name);
-    let explained = indices(cases, |case| case.wrong.is_some() && has(case));
+    let explained = indices(cases, |case| case.failure.is_some() && has(case));
     let tests = cases.iter().filter(|case| has(**case)).count();
-    let failures = cases.iter().filter(|case| case.wrong.is_some()).count();
+    let failures = cases.iter().filter(|case| case.failure.is_some()).count();
     let elsewhere = (failures - explained.len(), cases.len() - tests);
     // explained / tests > LIFT * elsewhere.0 / elsewhere.1
     let telling = explained.len() * elsewhere.1 > LIFT * elsewhere.0 * tests;
@@ -232,6 +177,7 @@ fn flag(cases: &[Case<'_>], name: &str, note: &str) -> Option<Candidate> {
 mod tests {
     use super::super::judge::judge;
     use super::super::values::NEAREST;
+    use super::super::vectors::Test;
     use super::*;
     use crate::protocol::Reply;
     use serde_json::json;
@@ -258,7 +204,7 @@ mod tests {
         .unwrap();
         let verdict = |(test, x): (&Test, &f64)| {
             let judged = judge(test, NEAREST, 0.0, &Reply::Result(hex_float::format(*x).into()));
-            if judged.right { Verdict::Passed(judged) } else { Verdict::Failed(Wrong::Answer(judged)) }
+            if judged.right { Verdict::Passed(judged) } else { Verdict::Failed(TestFailure::Answer(judged)) }
         };
         let verdicts: Vec<_> = vectors.tests.iter().zip(answers).map(verdict).collect();
         diagnose(&vectors, &verdicts)

@@ -16,12 +16,12 @@ pub(super) struct Exact {
 }
 
 impl Exact {
-    /// The number `m 2^binary`.
+    /// Creates the number `m 2^binary`.
     pub(super) fn new(m: impl Into<BigInt>, binary: i32) -> Self {
         Self { m: m.into(), binary, decimal: 0 }
     }
 
-    /// A decimal such as `-1.25e-3`, of a length and an exponent that are of use.
+    /// Parses a decimal such as `-1.25e-3`; none if it is malformed, or of a length or exponent above `MAX_EXPONENT`.
     pub(super) fn decimal(text: &str) -> Option<Self> {
         let (significand, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
         let (whole, fraction) = significand.split_once('.').unwrap_or((significand, ""));
@@ -35,24 +35,24 @@ impl Exact {
         Some(Self { m: digits.parse().ok()?, binary: 0, decimal: exponent - fraction.len() as i32 })
     }
 
-    /// The exact value of a finite float.
+    /// Returns the exact value of a finite float.
     pub(super) fn of<T: Real>(x: T) -> Self {
         let (m, e) = x.parts();
         let m = BigInt::from(m);
         Self::new(if x.is_sign_negative() { -m } else { m }, e)
     }
 
-    /// This times `2^e`.
+    /// Returns this number times `2^e`.
     pub(super) fn scaled(&self, e: i32) -> Self {
         Self { binary: self.binary + e, ..self.clone() }
     }
 
-    /// Its magnitude.
+    /// Returns the absolute value.
     pub(super) fn abs(&self) -> Self {
         Self { m: self.m.magnitude().clone().into(), ..*self }
     }
 
-    /// Both as integers of a common unit, and that unit.
+    /// Returns both numbers as integers of a common unit, and that unit.
     fn common(&self, other: &Self) -> (BigInt, BigInt, Self) {
         let (binary, decimal) = (self.binary.min(other.binary), self.decimal.min(other.decimal));
         let integer = |x: &Self| {
@@ -77,7 +77,7 @@ impl Exact {
         a.cmp(&b)
     }
 
-    /// As a float, within an ulp: infinity and zero beyond its range.
+    /// Returns the nearest float within an ulp; infinity or zero beyond the range of floats.
     pub(super) fn approximate(&self) -> f64 {
         let tens = BigUint::from(10_u32).pow(self.decimal.unsigned_abs());
         let (mut m, mut e) = (self.m.magnitude().clone(), self.binary);

@@ -1,30 +1,30 @@
 //! Causes that show in the answers themselves, whatever the operation.
 
-use super::Wrong;
-use super::diagnosis::{Candidate, Case, Kind, indices};
+use super::TestFailure;
+use super::candidate::{Candidate, Case, Kind, indices};
 use super::judge::{Answered, Deviation, Judged};
-use super::values::{Format, Want};
+use super::values::{FloatFormat, Want};
 use crate::output::short;
 use crate::protocol::errors;
 use mean_information::Real;
 use std::collections::BTreeMap;
 
-/// What is certain, but says less than a trap, and what is a pattern that numbers follow.
+/// Weights of a cause: `PLAIN` for a certain but general fact, `PATTERN` for a numerical pattern.
 const PLAIN: f64 = 0.95;
 const PATTERN: f64 = 0.9;
 /// A pattern shows in so many answers at least.
 const LEAST: usize = 3;
-/// Up to this error, in ulp, an answer suffers from rounding, not from a mistake.
+/// The largest error, in ulp, that is laid to rounding and not to a mistake.
 const FEW_ULP: f64 = 64.0;
 /// Half an ulp of `f32`, and half of one of `f64`.
 const TWICE_ULP: f64 = 0.5 + 1.0 / 1_073_741_824.0 + f64::EPSILON;
-/// Of wrong numbers, if they are to be so by rounding.
+/// The least share of wrong numbers with small errors, for rounding to be the cause.
 const MOST: f64 = 0.9;
-/// Numbers with a relative error below this have digits in common.
+/// The relative error below which two numbers have digits in common.
 const NEAR: f64 = f64::EPSILON * 68_719_476_736.0; // 2^-16
 const SAME: f64 = NEAR / 16.0;
 
-/// What the failures show.
+/// Returns the facts that failures show.
 pub(super) fn facts(cases: &[Case<'_>]) -> Vec<Candidate> {
     let mut candidates = Vec::new();
     for (name, note, holds) in PLAIN_FACTS {
@@ -49,7 +49,7 @@ type PlainFact = (&'static str, &'static str, fn(Case<'_>) -> bool);
 /// Name, what is wrong, and how it is told.
 const PLAIN_FACTS: &[PlainFact] = &[
     ("trouble", "crashes, hangs or breaks the protocol", |case| {
-        matches!(case.wrong, Some(Wrong::Trouble(_)))
+        matches!(case.failure, Some(TestFailure::Port(_)))
     }),
     (
         "not-of-format",
@@ -87,7 +87,7 @@ const PLAIN_FACTS: &[PlainFact] = &[
 ];
 
 fn answered(case: Case<'_>, holds: impl Fn(&Answered) -> bool) -> bool {
-    case.answer().is_some_and(|judged| holds(&judged.answer))
+    case.wrong_answer().is_some_and(|judged| holds(&judged.answer))
 }
 
 fn numeric(case: Case<'_>) -> bool {
@@ -98,11 +98,11 @@ fn refused(case: Case<'_>) -> bool {
     case.test.want == Want::Domain
 }
 
-/// Errors of other names, one fact each.
+/// Returns a fact for each error that has another name.
 fn words(cases: &[Case<'_>]) -> Vec<Candidate> {
     let mut by_word: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
     for (index, case) in cases.iter().enumerate() {
-        if let Some(Answered::Error(word)) = case.answer().map(|judged| &judged.answer)
+        if let Some(Answered::Error(word)) = case.wrong_answer().map(|judged| &judged.answer)
             && word != errors::DOMAIN
         {
             by_word.entry(word).or_default().push(index);
@@ -121,7 +121,7 @@ struct Number {
     error: Deviation,
 }
 
-/// Numbers that were answered where one was wanted, right ones too.
+/// Returns the numbers that were answered where one was wanted, right ones too.
 fn numbers(cases: &[Case<'_>]) -> Vec<Number> {
     let number = |(case, Case { judged, .. }): (usize, &Case<'_>)| match judged {
         Some(Judged { right, answer: Answered::Float(value, _), error: Some(error), .. }) => {
@@ -132,12 +132,12 @@ fn numbers(cases: &[Case<'_>]) -> Vec<Number> {
     cases.iter().enumerate().filter_map(number).collect()
 }
 
-/// Those that are wrong.
+/// Returns the wrong numbers that were answered.
 fn wrong_numbers(cases: &[Case<'_>]) -> Vec<Number> {
     numbers(cases).into_iter().filter(|number| !number.right).collect()
 }
 
-/// A pattern that all numbers should follow if it is the cause of some.
+/// Returns a pattern as a cause, if enough numbers follow it.
 fn followed(
     cases: &[Case<'_>],
     name: &str,
@@ -154,7 +154,7 @@ fn followed(
     telling.then(|| Candidate { tests, ..fact(name, note, PATTERN, explained) })
 }
 
-/// The answer to the request before, under the number of this one.
+/// Detects answers to the request before, under the number of this one.
 fn lag(cases: &[Case<'_>]) -> Option<Candidate> {
     let answers = |judged: &Judged, want: &Want| match (&judged.answer, want) {
         (Answered::Float(x, _), Want::Enclosure { lo, .. }) => {
@@ -180,10 +180,10 @@ fn lag(cases: &[Case<'_>]) -> Option<Candidate> {
         .then(|| Candidate { tests, ..fact("lag", note, PLAIN, explained) })
 }
 
-/// Answers in `f32` beside an exact result that lies next to a midpoint of two floats, where rounding to `f64` puts it.
+/// Detects `f32` answers rounded twice: the exact result lies next to a midpoint, onto which rounding to `f64` puts it.
 fn twice(cases: &[Case<'_>]) -> Option<Candidate> {
     let wrong = wrong_numbers(cases);
-    let single = |number: &&Number| cases[number.case].test.format == Format::F32;
+    let single = |number: &&Number| cases[number.case].test.format == FloatFormat::F32;
     let single: Vec<_> = wrong.iter().filter(single).collect();
     let explained: Vec<_> = single.iter().filter(|n| n.error.ulp < TWICE_ULP).map(|n| n.case).collect();
     let note =
@@ -192,7 +192,7 @@ fn twice(cases: &[Case<'_>]) -> Option<Candidate> {
         .then(|| fact("rounded-twice", note.to_owned(), PLAIN, explained))
 }
 
-/// The same answer to everything.
+/// Detects one answer to everything.
 fn constant(cases: &[Case<'_>]) -> Option<Candidate> {
     let mut by_value: BTreeMap<u64, usize> = BTreeMap::new();
     for number in wrong_numbers(cases) {
@@ -203,7 +203,7 @@ fn constant(cases: &[Case<'_>]) -> Option<Candidate> {
     followed(cases, "constant", note, |number| number.value.to_bits() == bits)
 }
 
-/// The exact result times a factor.
+/// Detects the exact result times a factor.
 fn factor(cases: &[Case<'_>]) -> Option<Candidate> {
     let ratio = |number: &Number| number.value / number.error.exact;
     let mut ratios: Vec<_> = wrong_numbers(cases).iter().map(ratio).collect();
@@ -225,13 +225,13 @@ const KNOWN_FACTORS: &[(f64, &str)] = &[
     (std::f64::consts::LOG10_2, ", log10 2: decimal logarithms in place of log2"),
 ];
 
-/// One less the exact result.
+/// Detects answers that are 1 less the exact result.
 fn complement(cases: &[Case<'_>]) -> Option<Candidate> {
     let note = "answers 1 less the exact result: entropy for information, occupied for free".to_owned();
     followed(cases, "complement", note, |number| (number.value + number.error.exact - 1.0).abs() <= SAME)
 }
 
-/// Answers that miss by rounding.
+/// Detects answers that miss by rounding.
 fn few_ulp(cases: &[Case<'_>]) -> Option<Candidate> {
     let wrong = wrong_numbers(cases);
     let all = wrong.len() as f64;
@@ -247,10 +247,10 @@ fn few_ulp(cases: &[Case<'_>]) -> Option<Candidate> {
         .then(|| fact("rounding", note, PATTERN, explained))
 }
 
-/// Answers with some digits right, by format, if most that are wrong are so.
+/// Detects answers with some digits right, by format, if most wrong answers are so.
 fn bits(cases: &[Case<'_>]) -> Vec<Candidate> {
-    let mut by_format: BTreeMap<Format, Vec<Number>> = BTreeMap::new();
-    let mut wrong: BTreeMap<Format, usize> = BTreeMap::new();
+    let mut by_format: BTreeMap<FloatFormat, Vec<Number>> = BTreeMap::new();
+    let mut wrong: BTreeMap<FloatFormat, usize> = BTreeMap::new();
     for number in wrong_numbers(cases) {
         *wrong.entry(cases[number.case].test.format).or_default() += 1;
         let Deviation { ulp, relative, .. } = number.error;
@@ -258,13 +258,14 @@ fn bits(cases: &[Case<'_>]) -> Vec<Candidate> {
             by_format.entry(cases[number.case].test.format).or_default().push(number);
         }
     }
-    let candidate = |(format, mut numbers): (Format, Vec<Number>)| {
+    let candidate = |(format, mut numbers): (FloatFormat, Vec<Number>)| {
         numbers.sort_by(|a, b| a.error.relative.total_cmp(&b.error.relative));
         // The exponent: relative = 2^-bits, about.
         let (m, e) = numbers[numbers.len() / 2].error.relative.parts();
         let bits = -(e + m.ilog2() as i32);
         let is_single = |number: &Number| f32::nearest(number.value).widen() == number.value;
-        let single = format == Format::F64 && (SINGLE_BITS.contains(&bits) || numbers.iter().all(is_single));
+        let single =
+            format == FloatFormat::F64 && (SINGLE_BITS.contains(&bits) || numbers.iter().all(is_single));
         let what = if single { ": something is computed in single precision" } else { "" };
         let note = format!("answers in {format} are right to about {bits} bits{what}");
         let explained: Vec<_> = numbers.into_iter().map(|number| number.case).collect();
@@ -274,5 +275,5 @@ fn bits(cases: &[Case<'_>]) -> Vec<Candidate> {
     most.map(candidate).collect()
 }
 
-/// About as many bits as numbers of single precision have.
+/// The number of right bits, about, of numbers in single precision.
 const SINGLE_BITS: std::ops::RangeInclusive<i32> = 22..=27;

@@ -1,6 +1,6 @@
 //! Patterns of names: `*` is any text.
 
-/// Whether the whole name is as the pattern says.
+/// Returns whether the whole name is as the pattern says.
 pub(super) fn matches(pattern: &str, name: &str) -> bool {
     let Some((start, rest)) = pattern.split_once('*') else { return pattern == name };
     let Some(mut name) = name.strip_prefix(start) else { return false };

@@ -1,5 +1,9 @@
 //! A process with all that it starts: it is ended as a whole, whether its first process still runs or has ended by
 //! itself.
+//!
+//! The crate `process-wrap` (10.0.1) does nearly this, and on Windows more: its job objects end all processes there. It
+//! is not used because on Unix its `try_wait` waits for the first process and so frees the number of its group, which is
+//! then killed by that number up to a second later. Here the number stays taken until all of the group was ended.
 
 use std::ffi::OsString;
 use std::io;
@@ -7,16 +11,16 @@ use std::process::{Child, Command, ExitStatus, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// How long a process may take to end once it has been killed.
+/// The time that a process may take to end once it has been killed.
 const GRACE: Duration = Duration::from_secs(1);
 const NAP: Duration = Duration::from_millis(2);
 
 /// A process and those it starts, as far as they stay in its group; elsewhere than on Unix, only itself.
 #[derive(Debug)]
 pub(super) struct Group {
-    /// Its three pipes are there to be taken.
+    /// The first process; its three pipes are there to be taken.
     pub(super) child: Child,
-    /// How it ended, once it was waited for: then its number may be another's.
+    /// The exit status, once the process was waited for: from then on its number may be another's.
     status: Option<ExitStatus>,
 }
 
@@ -37,7 +41,7 @@ impl Group {
         Ok(Self { child: start.spawn()?, status: None })
     }
 
-    /// Whether it has ended by itself. It is not waited for, so that its number stays its own and that of its group.
+    /// Returns whether it has ended by itself, without waiting for it, so that its number stays that of its group.
     #[cfg(unix)]
     pub(super) fn has_ended(&mut self) -> bool {
         use rustix::process::{WaitId, WaitIdOptions, waitid};
@@ -46,14 +50,14 @@ impl Group {
             || self.number().is_none_or(|n| !matches!(waitid(WaitId::Pid(n), options), Ok(None)))
     }
 
-    /// Whether it has ended by itself.
+    /// Returns whether it has ended by itself.
     #[cfg(not(unix))]
     pub(super) fn has_ended(&mut self) -> bool {
         self.status = self.status.or_else(|| self.child.try_wait().ok().flatten());
         self.status.is_some()
     }
 
-    /// How it has ended, if it does so by itself in time. Then the rest of its group is ended, too.
+    /// Returns how it has ended, if it does so by itself in time; then ends the rest of its group.
     pub(super) fn wait(&mut self, limit: Duration) -> Option<ExitStatus> {
         let deadline = Instant::now() + limit;
         while !self.has_ended() {
@@ -66,7 +70,7 @@ impl Group {
         self.status
     }
 
-    /// Whether it has ended with status 0.
+    /// Returns whether it has ended with status 0.
     pub(super) fn succeeded(&self) -> bool {
         self.status.is_some_and(|status| status.success())
     }

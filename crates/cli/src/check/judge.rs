@@ -5,38 +5,38 @@
 //! number of it.
 
 use super::exact::Exact;
-use super::values::{Format, NEAREST, Want};
+use super::values::{FloatFormat, NEAREST, Want};
 use super::vectors::Test;
 use crate::hex_float::{self, ParseError};
 use crate::protocol::{Reply, errors};
 use mean_information::Real;
-use serde_json::Value;
+use serde_json::Value as Json;
 
 /// An answer, judged.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Judged {
-    /// Whether it is right.
+    /// True if it is right.
     pub right: bool,
-    /// Whether it is so only by what the port claims: the contract asks for more.
+    /// True if it is right only by the port's claim: the contract asks for more.
     pub by_claim: bool,
-    /// What it is.
+    /// The answer.
     pub answer: Answered,
-    /// Where a number was wanted and answered: how far off it is.
+    /// The distance from the exact result, if a number was wanted and answered.
     pub error: Option<Deviation>,
 }
 
-/// How far an answer is from the nearest number that would be right.
+/// The distance of an answer from the nearest number that would be right.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Deviation {
-    /// In spacings of the format's floats at the answer; at the exact result where that is more than twice the answer.
+    /// The distance in spacings of the format's floats at the answer; at the exact result if that is more than twice it.
     pub ulp: f64,
-    /// Relative to the exact result.
+    /// The distance relative to the exact result.
     pub relative: f64,
     /// The exact result, about.
     pub exact: f64,
 }
 
-/// What was answered.
+/// An answer, as far as it was understood.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Answered {
     /// A float of the format, widened, with its text.
@@ -49,9 +49,9 @@ pub enum Answered {
     NotOfFormat(String),
     /// Something else.
     Unreadable {
-        /// As it was answered.
+        /// The answer's text.
         text: String,
-        /// What it should have been.
+        /// The form that it should have.
         wanted: &'static str,
     },
 }
@@ -59,8 +59,8 @@ pub enum Answered {
 /// Judges a result or an error; both tolerances in ulp: that of the contract, and what the port claims.
 pub(super) fn judge(test: &Test, contract: f64, claim: f64, reply: &Reply) -> Judged {
     let judge = |tolerance| match test.format {
-        Format::F32 => judge_as::<f32>(test, tolerance, reply),
-        Format::F64 => judge_as::<f64>(test, tolerance, reply),
+        FloatFormat::F32 => judge_as::<f32>(test, tolerance, reply),
+        FloatFormat::F64 => judge_as::<f64>(test, tolerance, reply),
     };
     let judged = judge(contract);
     // A claim is about size: the sign is that of the exact result, and of a zero, all the same.
@@ -90,7 +90,7 @@ fn judge_as<T: Real>(test: &Test, tolerance: f64, reply: &Reply) -> Judged {
             let right = name == errors::DOMAIN && wants().any(|want| *want == Want::Domain);
             without_error(right, Answered::Error(name.clone()))
         }
-        Reply::Result(Value::String(text)) if !counts => match hex_float::parse::<T>(text) {
+        Reply::Result(Json::String(text)) if !counts => match hex_float::parse::<T>(text) {
             Ok(x) => {
                 let enclosures = wants().filter_map(|want| match want {
                     Want::Enclosure { lo, hi } if x.is_finite() => Some((&lo.value, &hi.value)),
@@ -121,7 +121,7 @@ fn judge_as<T: Real>(test: &Test, tolerance: f64, reply: &Reply) -> Judged {
     }
 }
 
-/// Whether a finite answer is right for some number from `lo` to `hi`.
+/// Returns whether a finite answer is right for some number from `lo` to `hi`.
 fn is_right<T: Real>(x: T, lo: &Exact, hi: &Exact, tolerance: f64) -> bool {
     if tolerance > NEAREST {
         let reach = Exact::of(tolerance).scaled(spacing(x));
@@ -154,7 +154,7 @@ fn negative(x: &Exact) -> Exact {
     Exact::new(0, 0).minus(x)
 }
 
-/// The exponent of the spacing of floats at `x`.
+/// Returns the exponent of the spacing of floats at `x`.
 fn spacing<T: Real>(x: T) -> i32 {
     if x.is_zero() { T::MIN_EXPONENT } else { x.parts().1 }
 }
@@ -192,7 +192,8 @@ mod tests {
     }
 
     fn test<T: Real>(want: Want, also: Vec<Want>) -> Test {
-        let (id, format) = (String::new(), if T::PRECISION == 24 { Format::F32 } else { Format::F64 });
+        let (id, format) =
+            (String::new(), if T::PRECISION == 24 { FloatFormat::F32 } else { FloatFormat::F64 });
         Test {
             id,
             format,

@@ -1,7 +1,8 @@
 //! The verdict as JUnit XML, which the viewers of continuous integration read: a suite per operation.
 
-use super::{Check, Counts, Verdict, Wrong, words};
+use super::{Check, Counts, TestFailure, Verdict, words};
 use crate::one_line::one_line;
+use crate::output;
 use std::fmt::Write;
 
 /// The suite of what belongs to no test.
@@ -12,7 +13,7 @@ impl Check {
     pub fn junit(&self) -> String {
         let totals = self.totals();
         let mut xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n".to_owned();
-        let others = self.stale.len() + self.ending.incidents.len();
+        let others = self.stale.len() + self.ending.port_failures.len();
         let _ = writeln!(xml, "<testsuites{}>", attributes("meaninfo check", totals.cases + others, totals));
         for operation in &self.operations {
             let counts = Counts::of(&operation.verdicts);
@@ -21,12 +22,14 @@ impl Check {
             for (test, verdict) in operation.vectors.tests.iter().zip(&operation.verdicts) {
                 let outcome = match verdict {
                     Verdict::Passed(_) => String::new(),
-                    Verdict::Failed(wrong) => {
+                    Verdict::Failed(failure) => {
                         let text =
                             [words::arguments(test), format!("wanted {}", words::wanted(test))].join("\n");
-                        failed(&words::answered(wrong), kind(wrong), &text)
+                        failed(&words::answered(failure), kind(failure), &text)
                     }
-                    Verdict::Known(wrong) => skipped(&format!("known failure: {}", words::answered(wrong))),
+                    Verdict::Known(failure) => {
+                        skipped(&format!("known failure: {}", words::answered(failure)))
+                    }
                     Verdict::Skipped(reason) => skipped(reason),
                 };
                 case(&mut xml, op, &test.id, &outcome);
@@ -39,8 +42,8 @@ impl Check {
             for line in &self.stale {
                 case(&mut xml, OTHER, line, &failed("not a known failure any more", "stale", ""));
             }
-            for (place, incident) in &self.ending.incidents {
-                let outcome = failed(&incident.trouble.to_string(), "trouble", &incident.errors.join("\n"));
+            for (place, failure) in &self.ending.port_failures {
+                let outcome = failed(&failure.error.to_string(), "trouble", &failure.stderr.join("\n"));
                 case(&mut xml, OTHER, place, &outcome);
             }
             xml.push_str("  </testsuite>\n");
@@ -49,11 +52,11 @@ impl Check {
     }
 }
 
-fn kind(wrong: &Wrong) -> &'static str {
-    match wrong {
-        Wrong::Answer(_) => "answer",
-        Wrong::Trouble(_) => "trouble",
-        Wrong::NotRun(_) => "not-run",
+fn kind(failure: &TestFailure) -> &'static str {
+    match failure {
+        TestFailure::Answer(_) => "answer",
+        TestFailure::Port(_) => "trouble",
+        TestFailure::NotRun(_) => "not-run",
     }
 }
 
@@ -80,19 +83,7 @@ fn skipped(reason: &str) -> String {
     format!("<skipped message=\"{}\"/>", escaped(reason))
 }
 
-/// Text of one line in an attribute or an element.
+/// Escapes text, which becomes one line, for an attribute or an element.
 fn escaped(text: &str) -> String {
-    let mut xml = String::with_capacity(text.len());
-    for c in one_line(text).chars() {
-        match c {
-            '&' => xml.push_str("&amp;"),
-            '<' => xml.push_str("&lt;"),
-            '>' => xml.push_str("&gt;"),
-            '"' => xml.push_str("&quot;"),
-            // Not characters of XML.
-            '\u{fffe}' | '\u{ffff}' => xml.push('\u{fffd}'),
-            _ => xml.push(c),
-        }
-    }
-    xml
+    output::escaped(&one_line(text))
 }

@@ -11,7 +11,7 @@ use std::path::Path;
 pub struct KnownFailures(BTreeSet<String>);
 
 impl KnownFailures {
-    /// Those of a file: an id per line; what follows a `#` is a comment.
+    /// Reads a file of ids, one a line; what follows a `#` is a comment.
     ///
     /// # Errors
     /// A file that cannot be read.
@@ -28,12 +28,12 @@ impl KnownFailures {
         Self(ids.filter(|id| !id.is_empty()).map(str::to_owned).collect())
     }
 
-    /// Whether this test is known to fail.
+    /// Returns whether this test is known to fail.
     pub(super) fn contains(&self, id: &str) -> bool {
         self.0.contains(id)
     }
 
-    /// All ids, sorted.
+    /// Returns all ids, sorted.
     pub(super) fn ids(&self) -> impl Iterator<Item = &str> {
         self.0.iter().map(String::as_str)
     }

@@ -7,10 +7,11 @@
 //! | `judge` | whether an answer is right |
 //! | `group`, `process`, `run` | the port, and the conversation with it |
 //! | `known` | failures that are expected |
-//! | `diagnosis`, `facts` | why tests failed |
+//! | `candidate`, `facts`, `diagnosis` | why tests failed |
 //! | `words`, `report`, `junit` | the verdict, written |
 //! | `registry` | the list of operations, written |
 
+mod candidate;
 mod diagnosis;
 mod exact;
 mod facts;
@@ -27,13 +28,14 @@ mod values;
 mod vectors;
 mod words;
 
-pub use diagnosis::{Cause, Kind};
+pub use candidate::Kind;
+pub use diagnosis::Cause;
 pub use judge::{Answered, Deviation, Judged};
 pub use known::KnownFailures;
-pub use process::{End, Trouble};
+pub use process::{End, PortError};
 pub use registry::Registry;
-pub use run::Incident;
-pub use values::{Decimal, Format, MAX_TOLERANCE, NEAREST, Trap, Version, Want};
+pub use run::PortFailure;
+pub use values::{Decimal, FloatFormat, MAX_TOLERANCE, NEAREST, Trap, Version, Want};
 pub use vectors::{Test, Vectors};
 
 use crate::failure::Failure;
@@ -44,12 +46,12 @@ use run::{Conversation, Ending, Outcome};
 use std::ffi::OsString;
 use std::time::Duration;
 
-/// What is checked.
+/// The port, and the tests to run.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// How the port is started.
+    /// The command that starts the port.
     pub command: Vec<OsString>,
-    /// How long an answer may take.
+    /// The time that an answer may take.
     pub limit: Duration,
     /// Patterns of operations; none means all.
     pub ops: Vec<String>,
@@ -57,12 +59,12 @@ pub struct Options {
     pub known: KnownFailures,
 }
 
-/// How a port fared.
+/// The verdict on a port.
 #[derive(Debug)]
 pub struct Check {
     command: String,
     port: Welcome,
-    /// Those selected, in the order of the vectors.
+    /// The selected operations, in the order of the vectors.
     operations: Vec<Checked>,
     ending: Ending,
     /// Entries of the file of known failures that are none, with what they are.
@@ -70,47 +72,48 @@ pub struct Check {
     notes: Vec<String>,
 }
 
-/// How an operation fared.
+/// The verdict on an operation.
 #[derive(Debug)]
 struct Checked {
     vectors: Vectors,
     declared: bool,
-    /// What the port claims, in ulp, where that is more than the contract.
+    /// The port's claim in ulp, if it is more than the contract's tolerance.
     claimed: Option<f64>,
-    /// Of each test.
+    /// The verdict on each test.
     verdicts: Vec<Verdict>,
     causes: Vec<Cause>,
 }
 
-/// How a test ended.
+/// The verdict on a test.
 #[derive(Clone, Debug, PartialEq)]
 enum Verdict {
     Passed(Judged),
-    Failed(Wrong),
-    /// It failed, as was known.
-    Known(Wrong),
-    /// Why.
+    Failed(TestFailure),
+    /// Failed, as was known.
+    Known(TestFailure),
+    /// Skipped, with the reason.
     Skipped(String),
 }
 
-/// How a test failed.
+/// The failure of a test.
 #[derive(Clone, Debug, PartialEq)]
-enum Wrong {
+enum TestFailure {
     Answer(Judged),
-    Trouble(Incident),
-    /// Why.
+    /// The port, not an answer.
+    Port(PortFailure),
+    /// Skipped, with the reason.
     NotRun(String),
 }
 
-/// Tests by how they ended.
+/// The numbers of tests by how they ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Counts {
     cases: usize,
     passed: usize,
-    /// Of these, answers that only the port's claims allow.
+    /// The passed answers that only the port's claims allow.
     by_claim: usize,
     failed: usize,
-    /// Known failures, too.
+    /// The skipped tests, known failures included.
     skipped: usize,
     known: usize,
 }
@@ -180,21 +183,21 @@ impl Check {
         })
     }
 
-    /// All operations together; entries of known failures that are none, and troubles between requests, have failed.
+    /// Counts the tests of all operations; stale known failures and troubles between requests count as failed.
     fn totals(&self) -> Counts {
         let mut counts = Counts::of(self.operations.iter().flat_map(|operation| &operation.verdicts));
-        counts.failed += self.stale.len() + self.ending.incidents.len();
+        counts.failed += self.stale.len() + self.ending.port_failures.len();
         counts
     }
 
-    /// Whether something passed, and nothing failed.
+    /// Returns whether something passed, and nothing failed.
     pub fn holds(&self) -> bool {
         let counts = self.totals();
         counts.passed > 0 && counts.failed == 0
     }
 }
 
-/// One operation, asked, judged and diagnosed.
+/// Asks, judges and diagnoses one operation.
 fn check(
     vectors: Vectors,
     port: &Welcome,
@@ -205,7 +208,7 @@ fn check(
     let declared = port.ops.contains(&vectors.op);
     let claims = port.claims.iter().filter(|(pattern, _)| glob::matches(pattern, &vectors.op));
     let claim = claims.map(|(_, claim)| *claim).fold(0.0, f64::max);
-    let has = |format: Format| port.formats.iter().any(|name| name == format.name());
+    let has = |format: FloatFormat| port.formats.iter().any(|name| name == format.name());
     let asked: Vec<_> = vectors.tests.iter().filter(|test| declared && has(test.format)).collect();
     (asked.len()..vectors.tests.len()).for_each(|_| progress.done());
     let mut outcomes = conversation.run(&vectors.op, &asked, || progress.done()).into_iter();
@@ -217,22 +220,22 @@ fn check(
             return Verdict::Skipped(format!("the port does not declare {}", test.format));
         }
         let contract = test.tolerance_ulp.unwrap_or(vectors.tolerance_ulp);
-        let wrong = match outcomes.next().unwrap_or(Outcome::NotRun) {
+        let failure = match outcomes.next().unwrap_or(Outcome::NotRun) {
             Outcome::Answered(Reply::Skipped(reason)) => return Verdict::Skipped(reason),
             Outcome::Answered(reply) => {
                 let judged = judge::judge(test, contract, claim, &reply);
                 if judged.right {
                     return Verdict::Passed(judged);
                 }
-                Wrong::Answer(judged)
+                TestFailure::Answer(judged)
             }
-            Outcome::Failed(incident) => Wrong::Trouble(incident),
+            Outcome::Failed(failure) => TestFailure::Port(failure),
             // Whether it is a known failure has not been seen.
             Outcome::NotRun => {
-                return Verdict::Failed(Wrong::NotRun("not run after too much trouble".to_owned()));
+                return Verdict::Failed(TestFailure::NotRun("not run after too much trouble".to_owned()));
             }
         };
-        if known.contains(&test.id) { Verdict::Known(wrong) } else { Verdict::Failed(wrong) }
+        if known.contains(&test.id) { Verdict::Known(failure) } else { Verdict::Failed(failure) }
     };
     let verdicts: Vec<_> = vectors.tests.iter().map(verdict).collect();
     let causes = diagnosis::diagnose(&vectors, &verdicts);
@@ -241,7 +244,7 @@ fn check(
     Checked { vectors, declared, claimed, verdicts, causes }
 }
 
-/// A port that has nothing which could be checked.
+/// Refuses a port that has nothing which could be checked.
 fn refuse_strangers(port: &Welcome, names: &[String]) -> Result<(), String> {
     if !port.formats.iter().any(|format| [f32::FORMAT, f64::FORMAT].contains(&format.as_str())) {
         return Err(format!("its formats are neither f32 nor f64: {:?}", port.formats));
@@ -252,7 +255,7 @@ fn refuse_strangers(port: &Welcome, names: &[String]) -> Result<(), String> {
     Ok(())
 }
 
-/// What the port says of itself that means nothing.
+/// Returns notes on what the port declares and nobody can check.
 fn notes(port: &Welcome, names: &[String]) -> Vec<String> {
     let unknown = port.ops.iter().filter(|op| !names.contains(op));
     let formats = port.formats.iter().filter(|format| ![f32::FORMAT, f64::FORMAT].contains(&format.as_str()));

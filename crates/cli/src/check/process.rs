@@ -14,18 +14,18 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-/// Of an answer; that to `start` names all operations.
+/// The longest answer, in bytes; that to `start` names all operations.
 const LINE_LIMIT: usize = 1 << 16;
 /// Lines that wait to be looked at, before the port has to wait.
 const UNREAD_LINES: usize = 256;
-/// What is kept of the end of its standard error, in bytes, and shown of it, in lines and characters.
+/// The bytes kept of the end of its standard error, and the lines and characters shown.
 const ERRORS_KEPT: usize = 4096;
 const ERRORS_SHOWN: (usize, usize) = (5, 500);
-/// How much of a wrong line is shown, in characters.
+/// The number of characters shown of a wrong line.
 const LINE_SHOWN: usize = 120;
-/// How long a process may take to end once its output has, and what it has left behind to answer in its place.
+/// The time that a process may take to end after its output, and its children to answer in its place.
 const GRACE: Duration = Duration::from_secs(1);
-/// How often it is looked whether it has ended without its output.
+/// The interval at which it is looked whether it has ended without its output.
 const GLANCE: Duration = Duration::from_millis(20);
 const NAP: Duration = Duration::from_millis(2);
 
@@ -33,21 +33,21 @@ const NAP: Duration = Duration::from_millis(2);
 #[derive(Debug)]
 pub(super) struct Process {
     group: Group,
-    /// None once it was told to stop.
+    /// The queue of requests; none once it was told to stop.
     requests: Option<Sender<Vec<u8>>>,
     output: Receiver<Line>,
     errors: Arc<Mutex<VecDeque<u8>>>,
     error_reader: JoinHandle<()>,
 }
 
-/// What went wrong with a port, not with an answer.
+/// An error of a port, not of an answer.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Trouble {
+pub enum PortError {
     /// No answer in time.
     TimeOut(Duration),
-    /// It ended, where an answer was due.
+    /// The port ended where an answer was due.
     Ended(End),
-    /// Its output ended, but it did not.
+    /// The port closed its output, but did not end.
     ClosedOutput,
     /// A line without end.
     TooLong(String),
@@ -55,30 +55,30 @@ pub enum Trouble {
     Malformed {
         /// The line, or its beginning.
         line: String,
-        /// Why it is none.
+        /// The reason why it is none.
         reason: String,
     },
     /// The answer to another request than that which was due.
     WrongNumber {
-        /// That of the answer.
+        /// The sequence number that was answered.
         answered: u64,
-        /// That which was due.
+        /// The sequence number that was expected.
         due: u64,
     },
     /// A line that nobody asked for, after it was told to stop.
     Unasked(String),
-    /// It ended after it was told to stop, but not as it should.
+    /// The port ended after it was told to stop, but not with status 0.
     Stopped(End),
-    /// It ran on after it was told to stop.
+    /// The port ran on after it was told to stop.
     DoesNotStop(Duration),
 }
 
-/// How a port ended.
+/// The end of a port's process.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct End {
-    /// As the system says it.
+    /// The exit status in the system's words.
     pub status: String,
-    /// Whether another process held its output, and had to be killed.
+    /// True if another process held its output and had to be killed.
     pub left_behind: bool,
 }
 
@@ -92,7 +92,7 @@ impl End {
     }
 }
 
-impl fmt::Display for Trouble {
+impl fmt::Display for PortError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::TimeOut(limit) => {
@@ -124,14 +124,14 @@ impl fmt::Display for Trouble {
 /// No line in time, and no end of the output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Silent {
-    /// It runs on.
+    /// The process runs on.
     Running,
-    /// It has ended; another process holds its output.
+    /// The process has ended; another one holds its output.
     Ended,
 }
 
 impl Process {
-    /// Starts it.
+    /// Starts the port.
     ///
     /// # Errors
     /// A command that the system cannot start.
@@ -161,38 +161,38 @@ impl Process {
         }
     }
 
-    /// Its next line.
-    pub(super) fn receive(&mut self, limit: Duration) -> Result<Vec<u8>, Trouble> {
+    /// Returns the port's next line.
+    pub(super) fn receive(&mut self, limit: Duration) -> Result<Vec<u8>, PortError> {
         match self.next_line(limit) {
             Ok(Line::Whole(line)) => Ok(line),
-            Ok(Line::TooLong(line)) => Err(Trouble::TooLong(shown(&line))),
+            Ok(Line::TooLong(line)) => Err(PortError::TooLong(shown(&line))),
             Ok(Line::End) => {
-                Err(self.ended(GRACE.min(limit), false).map_or(Trouble::ClosedOutput, Trouble::Ended))
+                Err(self.ended(GRACE.min(limit), false).map_or(PortError::ClosedOutput, PortError::Ended))
             }
-            Err(Silent::Running) => Err(Trouble::TimeOut(limit)),
+            Err(Silent::Running) => Err(PortError::TimeOut(limit)),
             Err(Silent::Ended) => {
-                Err(self.ended(GRACE, true).map_or(Trouble::TimeOut(limit), Trouble::Ended))
+                Err(self.ended(GRACE, true).map_or(PortError::TimeOut(limit), PortError::Ended))
             }
         }
     }
 
     /// Tells it to stop and waits until it has.
-    pub(super) fn stop(&mut self, farewell: &str, limit: Duration) -> Result<(), Trouble> {
+    pub(super) fn stop(&mut self, farewell: &str, limit: Duration) -> Result<(), PortError> {
         self.send(farewell);
         self.requests = None;
         let deadline = Instant::now() + limit;
         let left_behind = match self.next_line(limit) {
-            Ok(Line::Whole(line) | Line::TooLong(line)) => return Err(Trouble::Unasked(shown(&line))),
+            Ok(Line::Whole(line) | Line::TooLong(line)) => return Err(PortError::Unasked(shown(&line))),
             Ok(Line::End) => false,
-            Err(Silent::Running) => return Err(Trouble::DoesNotStop(limit)),
+            Err(Silent::Running) => return Err(PortError::DoesNotStop(limit)),
             Err(Silent::Ended) => true,
         };
         let rest = deadline.saturating_duration_since(Instant::now()).max(GRACE.min(limit));
-        let end = self.ended(rest, left_behind).ok_or(Trouble::DoesNotStop(limit))?;
-        if self.group.succeeded() && !left_behind { Ok(()) } else { Err(Trouble::Stopped(end)) }
+        let end = self.ended(rest, left_behind).ok_or(PortError::DoesNotStop(limit))?;
+        if self.group.succeeded() && !left_behind { Ok(()) } else { Err(PortError::Stopped(end)) }
     }
 
-    /// Its next line, or the end of its output. Once it has ended, what it has left behind has only a moment for more.
+    /// Returns the next line, or the end of the output. Once the process has ended, its children have but a moment left.
     fn next_line(&mut self, limit: Duration) -> Result<Line, Silent> {
         let mut deadline = Instant::now() + limit;
         let mut silent = Silent::Running;
@@ -212,12 +212,12 @@ impl Process {
         }
     }
 
-    /// How it has ended, if it does so in time.
+    /// Returns how it has ended, if it does so in time.
     fn ended(&mut self, limit: Duration, left_behind: bool) -> Option<End> {
         self.group.wait(limit).map(|status| End { status: status.to_string(), left_behind })
     }
 
-    /// Ends it; the last lines of its standard error.
+    /// Ends the port and returns the last lines of its standard error.
     pub(super) fn end(mut self) -> Vec<String> {
         self.group.kill();
         let deadline = Instant::now() + GRACE / 4;
@@ -229,7 +229,7 @@ impl Process {
     }
 }
 
-/// The beginning of a line in one line.
+/// Returns the beginning of a line, with its control characters escaped.
 pub(super) fn shown(line: &[u8]) -> String {
     let text = String::from_utf8_lossy(&line[..line.len().min(4 * LINE_SHOWN)]);
     let start: String = text.chars().take(LINE_SHOWN).collect();

@@ -6,11 +6,11 @@ use mean_information::operations::{Argument, OPERATIONS, Operation, Shape};
 /// Equations are folded to about so many characters in the table.
 const EQUATION_WIDTH: usize = 60;
 
-/// Every operation of the protocol.
+/// The list of every operation of the protocol.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Registry;
 
-/// The arguments as they are written in a formula: `p`, `cells[]`, `particles[][]`.
+/// Returns the arguments as they are written in a formula: `p`, `cells[]`, `particles[][]`.
 fn arguments(operation: &Operation) -> Vec<String> {
     let brackets = |argument: &Argument| match argument.shape {
         Shape::Float => "",
@@ -20,7 +20,7 @@ fn arguments(operation: &Operation) -> Vec<String> {
     operation.arguments.iter().map(|argument| format!("{}{}", argument.name, brackets(argument))).collect()
 }
 
-/// The record, with the arguments as given.
+/// Returns the record of an operation, with the arguments as given.
 fn record(operation: &Operation, arguments: Value) -> Record {
     let text = |text: &str| Value::Text(text.to_owned());
     Record(vec![

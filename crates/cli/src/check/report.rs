@@ -1,27 +1,27 @@
 //! The verdict: a table with the causes of failures below it, JSON with everything, CSV with the numbers.
 
 use super::run::request;
-use super::values::Format;
+use super::values::FloatFormat;
 use super::vectors::Test;
-use super::{Answered, Cause, Check, Checked, Counts, Incident, Verdict, Wrong, words};
+use super::{Answered, Cause, Check, Checked, Counts, PortFailure, TestFailure, Verdict, words};
 use crate::one_line::one_line;
 use crate::output::{Number, Record, Report, Value, short, table};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// So many causes of an operation's failures are shown in the table.
+/// The most causes of an operation's failures that the table shows.
 const CAUSES_SHOWN: usize = 3;
-/// Only those whose score is so much of the best one's.
+/// The least score of a cause that is shown, relative to the best one's.
 const LIKELY: f64 = 0.5;
 /// And whose score is at least this: what few of its tests show is chance.
 const LEAST: f64 = 0.1;
-/// So many troubles of an operation.
+/// The most troubles of an operation that the table shows.
 const TROUBLES_SHOWN: usize = 3;
 
 impl Checked {
-    /// Each format with the verdicts of its tests, in the order of the vectors.
-    fn formats(&self) -> Vec<(Format, Vec<&Verdict>)> {
-        let mut formats: Vec<(Format, Vec<&Verdict>)> = Vec::new();
+    /// Returns each format with the verdicts of its tests, in the order of the vectors.
+    fn formats(&self) -> Vec<(FloatFormat, Vec<&Verdict>)> {
+        let mut formats: Vec<(FloatFormat, Vec<&Verdict>)> = Vec::new();
         for (test, verdict) in self.vectors.tests.iter().zip(&self.verdicts) {
             match formats.iter_mut().find(|(format, _)| *format == test.format) {
                 Some((_, verdicts)) => verdicts.push(verdict),
@@ -31,27 +31,27 @@ impl Checked {
         formats
     }
 
-    /// Tests that failed, known ones too.
-    pub(super) fn failures(&self) -> impl Iterator<Item = (&Test, &Wrong)> {
+    /// Returns the tests that failed, known ones too.
+    pub(super) fn failures(&self) -> impl Iterator<Item = (&Test, &TestFailure)> {
         self.vectors.tests.iter().zip(&self.verdicts).filter_map(|(test, verdict)| match verdict {
-            Verdict::Failed(wrong) | Verdict::Known(wrong) => Some((test, wrong)),
+            Verdict::Failed(failure) | Verdict::Known(failure) => Some((test, failure)),
             _ => None,
         })
     }
 
-    /// The wrong answer that is furthest off; if none of them is a number, the first.
-    fn worst(&self) -> Option<(&Test, &Wrong)> {
-        let answers = || self.failures().filter(|(_, wrong)| matches!(wrong, Wrong::Answer(_)));
-        let ulp = |wrong: &Wrong| match wrong {
-            Wrong::Answer(judged) => judged.error.map(|error| error.ulp),
+    /// Returns the wrong answer that is furthest off; if none of them is a number, the first.
+    fn worst(&self) -> Option<(&Test, &TestFailure)> {
+        let answers = || self.failures().filter(|(_, failure)| matches!(failure, TestFailure::Answer(_)));
+        let ulp = |failure: &TestFailure| match failure {
+            TestFailure::Answer(judged) => judged.error.map(|error| error.ulp),
             _ => None,
         };
-        let numbers = answers().filter_map(|(test, wrong)| ulp(wrong).map(|ulp| (ulp, (test, wrong))));
+        let numbers = answers().filter_map(|(test, failure)| ulp(failure).map(|ulp| (ulp, (test, failure))));
         let worst = numbers.reduce(|worst, next| if next.0 > worst.0 { next } else { worst });
         worst.map(|(_, case)| case).or_else(|| answers().next())
     }
 
-    /// How far off answers may be, in ulp; some tests allow more than the file.
+    /// Returns the tolerance in ulp; some tests allow more than the file.
     fn allowed(&self) -> String {
         let most = self.vectors.tests.iter().filter_map(|test| test.tolerance_ulp).fold(0.0, f64::max);
         let least = self.vectors.tolerance_ulp;
@@ -75,27 +75,28 @@ impl Checked {
         if likely.count() == 0 {
             let _ = writeln!(text, "  no known mistake explains them");
         }
-        let not_run = self.failures().filter(|(_, wrong)| matches!(wrong, Wrong::NotRun(_))).count();
+        let not_run =
+            self.failures().filter(|(_, failure)| matches!(failure, TestFailure::NotRun(_))).count();
         if not_run > 0 {
             let _ = writeln!(text, "  not run after too much trouble: {not_run} of {failures} failures");
         }
-        if let Some((test, wrong)) = self.worst() {
+        if let Some((test, failure)) = self.worst() {
             let _ = writeln!(text, "  worst: {}, in {}", one_line(&test.id), test.format);
             let _ = writeln!(text, "    {}", words::arguments(test));
             let _ = writeln!(text, "    wanted {}", words::wanted(test));
-            let _ = writeln!(text, "    answered {}", words::answered(wrong));
+            let _ = writeln!(text, "    answered {}", words::answered(failure));
         }
         let troubles = || {
-            self.failures().filter_map(|(test, wrong)| match wrong {
-                Wrong::Trouble(incident) => Some((test, incident)),
+            self.failures().filter_map(|(test, failure)| match failure {
+                TestFailure::Port(failure) => Some((test, failure)),
                 _ => None,
             })
         };
-        for (test, incident) in troubles().take(TROUBLES_SHOWN) {
+        for (test, failure) in troubles().take(TROUBLES_SHOWN) {
             let _ = writeln!(text, "  trouble: {}", one_line(&test.id));
             let _ = writeln!(text, "    {}", words::arguments(test));
-            let _ = writeln!(text, "    {}", incident.trouble);
-            errors(text, incident);
+            let _ = writeln!(text, "    {}", failure.error);
+            errors(text, failure);
         }
         let more = troubles().count().saturating_sub(TROUBLES_SHOWN);
         if more > 0 {
@@ -103,7 +104,7 @@ impl Checked {
         }
     }
 
-    fn record(&self, format: Format, verdicts: &[&Verdict]) -> Record {
+    fn record(&self, format: FloatFormat, verdicts: &[&Verdict]) -> Record {
         let counts = Counts::of(verdicts.iter().copied());
         let count = |n: usize| Value::Count(n as u64);
         let cause = self.causes.first().map(|cause| cause.name.clone()).unwrap_or_default();
@@ -126,7 +127,7 @@ impl Checked {
     fn json(&self) -> Record {
         let formats =
             self.formats().iter().map(|(format, verdicts)| self.record(*format, verdicts)).collect();
-        let failures = self.failures().map(|(test, wrong)| self.failure(test, wrong)).collect();
+        let failures = self.failures().map(|(test, failure)| self.failure(test, failure)).collect();
         let worst = self.worst().map(|(test, _)| test.id.clone()).unwrap_or_default();
         Record(vec![
             ("operation", Value::Text(self.vectors.op.clone())),
@@ -138,14 +139,14 @@ impl Checked {
         ])
     }
 
-    fn failure(&self, test: &Test, wrong: &Wrong) -> Record {
-        let (ulp, stderr) = match wrong {
-            Wrong::Answer(judged) => (judged.error.map(|error| error.ulp), Vec::new()),
-            Wrong::Trouble(incident) => (None, incident.errors.clone()),
-            Wrong::NotRun(_) => (None, Vec::new()),
+    fn failure(&self, test: &Test, failure: &TestFailure) -> Record {
+        let (ulp, stderr) = match failure {
+            TestFailure::Answer(judged) => (judged.error.map(|error| error.ulp), Vec::new()),
+            TestFailure::Port(failure) => (None, failure.stderr.clone()),
+            TestFailure::NotRun(_) => (None, Vec::new()),
         };
-        let answer = match wrong {
-            Wrong::Answer(judged) => match &judged.answer {
+        let answer = match failure {
+            TestFailure::Answer(judged) => match &judged.answer {
                 Answered::Count(count) => count.to_string(),
                 Answered::Error(text)
                 | Answered::Float(_, text)
@@ -160,7 +161,7 @@ impl Checked {
             ("request", Value::Text(request(&self.vectors.op, test, 1).line())),
             ("wanted", Value::Text(words::wanted(test))),
             ("answer", Value::Text(answer)),
-            ("what", Value::Text(words::answered(wrong))),
+            ("what", Value::Text(words::answered(failure))),
             ("error_ulp", Value::Computed(ulp.map(Number::Double))),
             ("flags", Value::Texts(test.flags.clone())),
             ("stderr", Value::Texts(stderr)),
@@ -184,20 +185,20 @@ fn cause(cause: &Cause) -> Record {
     Record(record)
 }
 
-/// The largest error of numbers that were answered, right ones too.
+/// Returns the largest error of numbers that were answered, right ones too.
 fn worst_error(verdicts: &[&Verdict]) -> Option<f64> {
     let ulp = |verdict: &&Verdict| match verdict {
         Verdict::Passed(judged)
-        | Verdict::Failed(Wrong::Answer(judged))
-        | Verdict::Known(Wrong::Answer(judged)) => judged.error.map(|error| error.ulp),
+        | Verdict::Failed(TestFailure::Answer(judged))
+        | Verdict::Known(TestFailure::Answer(judged)) => judged.error.map(|error| error.ulp),
         _ => None,
     };
     verdicts.iter().filter_map(ulp).reduce(f64::max)
 }
 
-/// The last lines of standard error.
-fn errors(text: &mut String, incident: &Incident) {
-    for line in &incident.errors {
+/// Writes the last lines of standard error.
+fn errors(text: &mut String, failure: &PortFailure) {
+    for line in &failure.stderr {
         let _ = writeln!(text, "    stderr: {line}");
     }
 }
@@ -207,7 +208,7 @@ impl Check {
         self.operations.iter().filter(|operation| !operation.declared).collect()
     }
 
-    /// What was skipped, and why: how often.
+    /// Counts the skipped tests by their reason.
     fn skipped(&self) -> BTreeMap<&str, usize> {
         let mut reasons = BTreeMap::new();
         for verdict in self.operations.iter().filter(|o| o.declared).flat_map(|o| &o.verdicts) {
@@ -219,7 +220,7 @@ impl Check {
     }
 
     fn summary(&self) -> String {
-        let row = |operation: &Checked, format: Format, verdicts: &[&Verdict]| {
+        let row = |operation: &Checked, format: FloatFormat, verdicts: &[&Verdict]| {
             let counts = Counts::of(verdicts.iter().copied());
             let tolerance = match operation.claimed {
                 Some(claim) => format!("{claim} claimed"),
@@ -255,7 +256,7 @@ impl Check {
         table(header, rows)
     }
 
-    /// What was not run or not counted, and why.
+    /// Writes what was not run or not counted, and why.
     fn remarks(&self, text: &mut String) {
         let undeclared = self.undeclared();
         if !undeclared.is_empty() {
@@ -288,9 +289,9 @@ impl Check {
         for line in &self.stale {
             let _ = writeln!(text, "not a known failure any more: {}", one_line(line));
         }
-        for (place, incident) in &self.ending.incidents {
-            let _ = writeln!(text, "trouble {}: {}", one_line(place), incident.trouble);
-            errors(text, incident);
+        for (place, failure) in &self.ending.port_failures {
+            let _ = writeln!(text, "trouble {}: {}", one_line(place), failure.error);
+            errors(text, failure);
         }
         if self.ending.restarts > 0 {
             let _ = writeln!(text, "the port was started again, {} times in all", self.ending.restarts);
@@ -343,11 +344,11 @@ impl Report for Check {
             ("ops", Value::Texts(self.port.ops.clone())),
             ("claims", Value::Records(self.port.claims.iter().map(claim).collect())),
         ]);
-        let incident = |(place, incident): &(String, Incident)| {
+        let failure = |(place, failure): &(String, PortFailure)| {
             Record(vec![
                 ("place", text(place)),
-                ("what", Value::Text(incident.trouble.to_string())),
-                ("stderr", Value::Texts(incident.errors.clone())),
+                ("what", Value::Text(failure.error.to_string())),
+                ("stderr", Value::Texts(failure.stderr.clone())),
             ])
         };
         let Counts { passed, by_claim, failed, skipped, known, .. } = self.totals();
@@ -355,7 +356,7 @@ impl Report for Check {
             ("port", Value::Record(port)),
             ("operations", Value::Records(self.operations.iter().map(Checked::json).collect())),
             ("undeclared", Value::Texts(self.undeclared().iter().map(|o| o.vectors.op.clone()).collect())),
-            ("troubles", Value::Records(self.ending.incidents.iter().map(incident).collect())),
+            ("troubles", Value::Records(self.ending.port_failures.iter().map(failure).collect())),
             ("restarts", count(self.ending.restarts)),
             ("given_up", text(self.ending.given_up.as_deref().unwrap_or_default())),
             ("stale_known_failures", Value::Texts(self.stale.clone())),

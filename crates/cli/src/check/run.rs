@@ -1,14 +1,14 @@
 //! The conversation with a port: requests are sent ahead, troubles are laid to the request that caused them, and the
 //! port is started again.
 
-use super::process::{Process, Trouble, shown};
+use super::process::{PortError, Process, shown};
 use super::values::MAX_TOLERANCE;
 use super::vectors::Test;
 use crate::failure::Failure;
 use crate::one_line::one_line;
 use crate::protocol::{Answer, Reply, Request, Run, VERSION, Welcome};
 use serde::Deserialize;
-use serde_json::Value;
+use serde_json::Value as Json;
 use serde_json::error::Category;
 use std::ffi::OsString;
 use std::time::Duration;
@@ -20,23 +20,23 @@ pub(super) const TROUBLES_PER_OPERATION: usize = 20;
 /// After so many answers that did not come in time nothing is run any more.
 pub(super) const TIME_OUTS: usize = 5;
 
-/// What became of a request.
+/// The outcome of a request.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Outcome {
     Answered(Reply),
-    /// The port had trouble with it.
-    Failed(Incident),
-    /// It was not sent any more.
+    /// The port failed at it.
+    Failed(PortFailure),
+    /// The request was not sent any more.
     NotRun,
 }
 
-/// Trouble, and what the port said on its standard error.
+/// PortError, and what the port said on its standard error.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Incident {
-    /// What went wrong.
-    pub trouble: Trouble,
+pub struct PortFailure {
+    /// The error.
+    pub error: PortError,
     /// The last lines.
-    pub errors: Vec<String>,
+    pub stderr: Vec<String>,
 }
 
 /// A port, and how it has fared.
@@ -51,17 +51,17 @@ pub(super) struct Conversation<'a> {
     time_outs: usize,
     restarts: usize,
     /// Troubles that belong to no single request.
-    incidents: Vec<(String, Incident)>,
+    port_failures: Vec<(String, PortFailure)>,
     given_up: Option<String>,
 }
 
-/// How a conversation went.
+/// The end of a conversation.
 #[derive(Debug)]
 pub(super) struct Ending {
     pub(super) restarts: usize,
-    /// When, and what.
-    pub(super) incidents: Vec<(String, Incident)>,
-    /// Why the rest was not run.
+    /// The errors that belong to no single request, each with its place.
+    pub(super) port_failures: Vec<(String, PortFailure)>,
+    /// The reason why the rest was not run.
     pub(super) given_up: Option<String>,
 }
 
@@ -81,7 +81,7 @@ impl<'a> Conversation<'a> {
             numbered: 1,
             time_outs: 0,
             restarts: 0,
-            incidents: Vec::new(),
+            port_failures: Vec::new(),
             given_up: None,
         };
         Ok((conversation, welcome))
@@ -96,7 +96,7 @@ impl<'a> Conversation<'a> {
         let mut troubles = 0;
         let mut sent = 0;
         // The end of a port that had several requests, up to this one: they are asked again, one at a time.
-        let mut suspected: Option<(Incident, usize)> = None;
+        let mut suspected: Option<(PortFailure, usize)> = None;
         while outcomes.len() < tests.len() && troubles < TROUBLES_PER_OPERATION {
             let Some(process) = &mut self.process else { break };
             let next = outcomes.len();
@@ -109,29 +109,29 @@ impl<'a> Conversation<'a> {
                 Ok(reply) => {
                     outcomes.push(Outcome::Answered(reply));
                     done();
-                    if let Some((incident, _)) = suspected.take_if(|(_, end)| *end == outcomes.len()) {
+                    if let Some((failure, _)) = suspected.take_if(|(_, end)| *end == outcomes.len()) {
                         let place = format!("{op}, requests sent ahead up to {}", tests[next].id);
-                        self.incidents.push((place, incident));
+                        self.port_failures.push((place, failure));
                     }
                 }
-                Err(trouble) => {
+                Err(error) => {
                     let alone = sent - next == 1;
-                    let incident = self.restart(trouble);
-                    if alone || !matches!(incident.trouble, Trouble::Ended(_) | Trouble::ClosedOutput) {
+                    let failure = self.restart(error);
+                    if alone || !matches!(failure.error, PortError::Ended(_) | PortError::ClosedOutput) {
                         suspected = None;
-                        outcomes.push(Outcome::Failed(incident));
+                        outcomes.push(Outcome::Failed(failure));
                         troubles += 1;
                         done();
                     } else {
-                        suspected = Some((incident, sent));
+                        suspected = Some((failure, sent));
                     }
                     self.ahead = 1;
                     sent = outcomes.len();
                 }
             }
         }
-        if let Some((incident, _)) = suspected {
-            self.incidents.push((op.to_owned(), incident));
+        if let Some((failure, _)) = suspected {
+            self.port_failures.push((op.to_owned(), failure));
         }
         (outcomes.len()..tests.len()).for_each(|_| done());
         outcomes.resize(tests.len(), Outcome::NotRun);
@@ -139,9 +139,9 @@ impl<'a> Conversation<'a> {
     }
 
     /// Ends the port and starts it again.
-    fn restart(&mut self, trouble: Trouble) -> Incident {
-        self.time_outs += usize::from(matches!(trouble, Trouble::TimeOut(_)));
-        let errors = self.process.take().map(Process::end).unwrap_or_default();
+    fn restart(&mut self, error: PortError) -> PortFailure {
+        self.time_outs += usize::from(matches!(error, PortError::TimeOut(_)));
+        let stderr = self.process.take().map(Process::end).unwrap_or_default();
         if self.time_outs >= TIME_OUTS {
             self.given_up = Some(format!("{TIME_OUTS} answers did not come in time"));
         } else {
@@ -151,28 +151,28 @@ impl<'a> Conversation<'a> {
                 Err(message) => self.given_up = Some(format!("started again, {message}")),
             }
         }
-        Incident { trouble, errors }
+        PortFailure { error, stderr }
     }
 
     /// Tells the port to stop.
     pub(super) fn close(mut self) -> Ending {
         if let Some(mut process) = self.process.take()
-            && let Err(trouble) = process.stop(&Request::Stop.line(), self.limit)
+            && let Err(error) = process.stop(&Request::Stop.line(), self.limit)
         {
-            let errors = process.end();
-            self.incidents.push(("at the end".to_owned(), Incident { trouble, errors }));
+            let stderr = process.end();
+            self.port_failures.push(("at the end".to_owned(), PortFailure { error, stderr }));
         }
-        Ending { restarts: self.restarts, incidents: self.incidents, given_up: self.given_up }
+        Ending { restarts: self.restarts, port_failures: self.port_failures, given_up: self.given_up }
     }
 }
 
-/// The command, as it was given.
+/// Returns the command as it was given.
 pub(super) fn command_line(command: &[OsString]) -> String {
     let words: Vec<_> = command.iter().map(|word| word.to_string_lossy()).collect();
     words.join(" ")
 }
 
-/// The request of a test.
+/// Returns the request of a test.
 pub(super) fn request(op: &str, test: &Test, seq: u64) -> Request {
     let Test { format, args, .. } = test;
     Request::Run(Run { seq, op: op.to_owned(), format: format.to_string(), args: args.clone() })
@@ -182,7 +182,7 @@ pub(super) fn request(op: &str, test: &Test, seq: u64) -> Request {
 fn greet(command: &[OsString], limit: Duration) -> Result<(Process, Welcome), String> {
     let mut process = Process::start(command).map_err(|error| format!("cannot be started: {error}"))?;
     process.send(&Request::Start { protocol: VERSION }.line());
-    match process.receive(limit).map_err(|trouble| trouble.to_string()).and_then(|line| read_welcome(&line)) {
+    match process.receive(limit).map_err(|error| error.to_string()).and_then(|line| read_welcome(&line)) {
         Ok(welcome) => Ok((process, welcome)),
         Err(message) => Err(match process.end().last() {
             Some(error) => format!("{message}; its standard error ends with: {error}"),
@@ -191,9 +191,9 @@ fn greet(command: &[OsString], limit: Duration) -> Result<(Process, Welcome), St
     }
 }
 
-/// The answer to `start`, if this program can go on with it.
+/// Reads the answer to `start`, if this program can go on with it.
 fn read_welcome(line: &[u8]) -> Result<Welcome, String> {
-    let message: Value = serde_json::from_slice(line)
+    let message: Json = serde_json::from_slice(line)
         .map_err(|error| format!("its answer to start is not JSON ({error}): {}", shown(line)))?;
     if let Some(error) = message.get("error") {
         return Err(format!("it refuses protocol {VERSION}: {}", one_line(&error.to_string())));
@@ -216,22 +216,22 @@ fn read_welcome(line: &[u8]) -> Result<Welcome, String> {
     Ok(welcome)
 }
 
-/// The answer that is due.
-fn read_answer(line: &[u8], due: u64) -> Result<Reply, Trouble> {
-    let malformed = |reason: String| Trouble::Malformed { line: shown(line), reason };
+/// Reads the answer that is due.
+fn read_answer(line: &[u8], due: u64) -> Result<Reply, PortError> {
+    let malformed = |reason: String| PortError::Malformed { line: shown(line), reason };
     let json = |error: serde_json::Error| match error.classify() {
         Category::Eof => "which is cut off".to_owned(),
         _ => format!("which is not JSON ({})", error.to_string().replace("at line 1 column", "at column")),
     };
-    let message: Value = serde_json::from_slice(line).map_err(|error| malformed(json(error)))?;
+    let message: Json = serde_json::from_slice(line).map_err(|error| malformed(json(error)))?;
     if !message.is_object() {
         return Err(malformed("which is JSON, but not an object".to_owned()));
     }
     match &message["seq"] {
-        Value::Null => return Err(malformed(format!("which has no \"seq\", here {due}"))),
+        Json::Null => return Err(malformed(format!("which has no \"seq\", here {due}"))),
         seq if *seq == due => {}
         seq => match seq.as_u64() {
-            Some(answered) => return Err(Trouble::WrongNumber { answered, due }),
+            Some(answered) => return Err(PortError::WrongNumber { answered, due }),
             None => return Err(malformed(format!("whose \"seq\" is {seq}, not the integer {due}"))),
         },
     }

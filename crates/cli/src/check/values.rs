@@ -6,10 +6,10 @@ use crate::hex_float;
 use crate::protocol::errors;
 use mean_information::Real;
 use serde::{Deserialize, Deserializer, de};
-use serde_json::Value;
+use serde_json::Value as Json;
 use std::fmt;
 
-/// Whose answers may be further off than this, in ulp, promises nothing: in `f64` half of the digits.
+/// The largest tolerance, in ulp: half of the digits of `f64`. A larger one promises nothing.
 pub const MAX_TOLERANCE: f64 = 67_108_864.0;
 /// The tolerance that means the nearest float.
 pub const NEAREST: f64 = 0.5;
@@ -28,18 +28,18 @@ impl TryFrom<u64> for Version {
     }
 }
 
-/// Which floats arguments and answers are.
+/// The format of floats of arguments and answers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Format {
+pub enum FloatFormat {
     /// Single precision.
     F32,
     /// Double precision.
     F64,
 }
 
-impl Format {
-    /// Its name in the protocol.
+impl FloatFormat {
+    /// Returns its name in the protocol.
     pub fn name(self) -> &'static str {
         match self {
             Self::F32 => f32::FORMAT,
@@ -48,7 +48,7 @@ impl Format {
     }
 }
 
-impl fmt::Display for Format {
+impl fmt::Display for FloatFormat {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())
     }
@@ -62,7 +62,7 @@ pub(super) fn tolerance<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f6
     allowed.then_some(ulp).ok_or_else(|| de::Error::custom(refused()))
 }
 
-/// The same where the key may be absent.
+/// Reads a tolerance whose key may be absent.
 pub(super) fn some_tolerance<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
     tolerance(deserializer).map(Some)
 }
@@ -70,7 +70,7 @@ pub(super) fn some_tolerance<'de, D: Deserializer<'de>>(deserializer: D) -> Resu
 /// A decimal, as it is written and as a number.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Decimal {
-    /// Its digits.
+    /// The text as it was written.
     pub text: String,
     pub(super) value: Exact,
 }
@@ -97,7 +97,7 @@ pub enum Want {
     },
     /// The error `domain`.
     Domain,
-    /// So many.
+    /// This count.
     Count(u64),
 }
 
@@ -130,9 +130,9 @@ impl TryFrom<Fields> for Want {
     }
 }
 
-/// What a mistake answers.
+/// The answer of a known mistake.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-#[serde(try_from = "Value")]
+#[serde(try_from = "Json")]
 pub enum Trap {
     /// A count.
     Count(u64),
@@ -140,10 +140,10 @@ pub enum Trap {
     Float(f64),
 }
 
-impl TryFrom<Value> for Trap {
+impl TryFrom<Json> for Trap {
     type Error = String;
 
-    fn try_from(value: Value) -> Result<Self, String> {
+    fn try_from(value: Json) -> Result<Self, String> {
         let float = value.as_str().and_then(|text| hex_float::parse(text).ok());
         let trap = value.as_u64().map(Self::Count).or(float.map(Self::Float));
         trap.ok_or_else(|| format!("the trap {value} is neither a hexadecimal float in a string nor a count"))

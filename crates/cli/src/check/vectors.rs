@@ -1,12 +1,12 @@
 //! The vectors as they are written: `vectors/README.md`.
 
-use super::values::{Format, NEAREST, Trap, Version, Want, some_tolerance, tolerance};
+use super::values::{FloatFormat, NEAREST, Trap, Version, Want, some_tolerance, tolerance};
 use crate::failure::Failure;
 use crate::protocol::{Arguments, values};
 use mean_information::operations::{Operation, Outcome, find};
 use mean_information::vectors::FILES;
 use serde::Deserialize;
-use serde_json::Value;
+use serde_json::Value as Json;
 use std::collections::{BTreeMap, HashSet};
 use std::fs;
 use std::path::Path;
@@ -20,38 +20,38 @@ const REGISTRY: &str = "operations.json";
 pub struct Vectors {
     /// The operation.
     pub op: String,
-    /// That of the folder.
+    /// The version of the format.
     pub version: Version,
     /// The exact result, in words.
     #[serde(default)]
     pub formula: String,
-    /// How far an answer may be off; 0.5 means the nearest float.
+    /// The tolerance in ulp; 0.5 means the nearest float.
     #[serde(deserialize_with = "tolerance")]
     pub tolerance_ulp: f64,
-    /// What that means, in words.
+    /// The meaning of the tolerance, in words.
     #[serde(default)]
     pub verdict: String,
-    /// Who computed the right answers.
+    /// The tools that computed the right answers.
     #[serde(default)]
     pub source: String,
-    /// What a test with a flag is about, by the name of the flag.
+    /// The subject of the tests with a flag, by the name of the flag.
     pub flags: BTreeMap<String, String>,
-    /// What an implementation did whose answer is that of a trap, by the name of the trap.
+    /// The mistake behind a trap's answer, by the name of the trap.
     #[serde(default)]
     pub traps: BTreeMap<String, String>,
-    /// In the order of the file.
+    /// The tests, in the order of the file.
     pub tests: Vec<Test>,
 }
 
-/// One test.
+/// A test: arguments and the right answer.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Test {
-    /// Means this test for ever.
+    /// The id, which means this test for ever.
     pub id: String,
-    /// Which floats are meant.
-    pub format: Format,
-    /// By name.
+    /// The format of the floats.
+    pub format: FloatFormat,
+    /// The arguments by name.
     pub args: Arguments,
     /// The right answer.
     pub want: Want,
@@ -61,16 +61,16 @@ pub struct Test {
     /// A larger tolerance than that of the file.
     #[serde(default, deserialize_with = "some_tolerance")]
     pub tolerance_ulp: Option<f64>,
-    /// Names of what it is about.
+    /// The flags of what it is about.
     #[serde(default)]
     pub flags: Vec<String>,
-    /// What known mistakes answer.
+    /// The answers of known mistakes, by the name of the trap.
     #[serde(default)]
     pub traps: BTreeMap<String, Trap>,
 }
 
 impl Vectors {
-    /// Those this program was built with.
+    /// Returns the vectors that this program was built with.
     ///
     /// # Errors
     /// None: a test reads them all.
@@ -79,7 +79,7 @@ impl Vectors {
         parsed.collect::<Result<_, _>>().and_then(checked).map_err(Failure::Vectors)
     }
 
-    /// Those of the folder, in the order of their names.
+    /// Reads the vectors of a folder, in the order of the files' names.
     ///
     /// # Errors
     /// A folder or a file that cannot be read, or that holds something else.
@@ -124,14 +124,14 @@ impl Vectors {
         Ok(vectors)
     }
 
-    /// What is wrong with a test whose parts make sense alone.
+    /// Returns what is wrong with a test whose parts make sense alone.
     fn problem_of(&self, operation: &Operation, test: &Test) -> Option<String> {
         if test.id.is_empty() {
             return Some("a test whose id is empty".to_owned());
         }
         if let Err(what) = match test.format {
-            Format::F32 => values::<f32>(operation, &test.args).map(drop),
-            Format::F64 => values::<f64>(operation, &test.args).map(drop),
+            FloatFormat::F32 => values::<f32>(operation, &test.args).map(drop),
+            FloatFormat::F64 => values::<f64>(operation, &test.args).map(drop),
         } {
             return Some(what);
         }
@@ -164,9 +164,9 @@ impl Vectors {
     }
 }
 
-/// Why a file cannot be read: of the first test that is refused, its id.
+/// Explains why a file cannot be read, by the id of the first test that is refused.
 fn explained(text: &str, error: &serde_json::Error) -> String {
-    let file: Value = serde_json::from_str(text).unwrap_or_default();
+    let file: Json = serde_json::from_str(text).unwrap_or_default();
     let tests = file["tests"].as_array().into_iter().flatten().enumerate();
     let refused = tests.filter_map(|(index, test)| {
         let what = Test::deserialize(test).err()?;
@@ -179,7 +179,7 @@ fn explained(text: &str, error: &serde_json::Error) -> String {
     refused.into_iter().next().unwrap_or_else(|| error.to_string())
 }
 
-/// An id and an operation mean one thing.
+/// Refuses an id or an operation that is there twice.
 fn checked(all: Vec<Vectors>) -> Result<Vec<Vectors>, String> {
     let mut seen = HashSet::new();
     let mut names =

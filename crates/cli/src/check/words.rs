@@ -3,18 +3,18 @@
 use super::judge::{Answered, Judged};
 use super::values::Want;
 use super::vectors::Test;
-use super::{Cause, Kind, Wrong};
+use super::{Cause, Kind, TestFailure};
 use crate::hex_float;
 use crate::one_line::one_line;
 use crate::output::{Number, short};
 use crate::protocol::{Argument, errors};
 
-/// So many characters of an answer that cannot be read are shown.
+/// The number of characters shown of an answer that cannot be read.
 const ANSWER_SHOWN: usize = 120;
-/// So many floats of a list are shown.
+/// The number of floats shown of a list.
 const SHOWN: usize = 6;
 
-/// The arguments by name, floats also as decimals.
+/// Returns the arguments by name, floats also as decimals.
 pub(super) fn arguments(test: &Test) -> String {
     let named = test.args.iter().map(|(name, argument)| format!("{name} = {}", one_line(&value(argument))));
     named.collect::<Vec<_>>().join(", ")
@@ -34,7 +34,7 @@ fn list<T>(items: &[T], item: impl Fn(&T) -> String) -> String {
     format!("[{}{more}]", shown.join(", "))
 }
 
-/// A hexadecimal float and its decimals.
+/// Returns a hexadecimal float with its decimals.
 fn float(text: &str) -> String {
     match hex_float::parse::<f64>(text) {
         Ok(x) if x.is_finite() => format!("{text} ({})", Number::given(x)),
@@ -42,7 +42,7 @@ fn float(text: &str) -> String {
     }
 }
 
-/// The right answers.
+/// Returns the right answers.
 pub(super) fn wanted(test: &Test) -> String {
     let wants = std::iter::once(&test.want).chain(&test.also).map(|want| match want {
         Want::Enclosure { lo, hi } if lo == hi => lo.text.clone(),
@@ -53,10 +53,10 @@ pub(super) fn wanted(test: &Test) -> String {
     wants.collect::<Vec<_>>().join(", or ")
 }
 
-/// What was answered instead.
-pub(super) fn answered(wrong: &Wrong) -> String {
-    match wrong {
-        Wrong::Answer(Judged { answer, error, .. }) => {
+/// Returns what was answered instead.
+pub(super) fn answered(failure: &TestFailure) -> String {
+    match failure {
+        TestFailure::Answer(Judged { answer, error, .. }) => {
             let off = error.map(|error| format!(", {} ulp off", short(error.ulp))).unwrap_or_default();
             match answer {
                 Answered::Float(_, text) => one_line(&float(text)) + &off,
@@ -66,18 +66,18 @@ pub(super) fn answered(wrong: &Wrong) -> String {
                 Answered::Unreadable { text, wanted } => format!("{}: {wanted}", cut(text)),
             }
         }
-        Wrong::Trouble(incident) => incident.trouble.to_string(),
-        Wrong::NotRun(reason) => reason.clone(),
+        TestFailure::Port(failure) => failure.error.to_string(),
+        TestFailure::NotRun(reason) => reason.clone(),
     }
 }
 
-/// What may be long, in one line.
+/// Shortens a text to one line.
 fn cut(text: &str) -> String {
     let start: String = text.chars().take(ANSWER_SHOWN).collect();
     one_line(&start) + if start.len() < text.len() { "..." } else { "" }
 }
 
-/// A cause with its evidence; of so many failures.
+/// Returns a cause with its evidence, for an operation with so many failures.
 pub(super) fn cause(cause: &Cause, failures: usize) -> String {
     let Cause { kind, name, note, explained, tests, elsewhere, .. } = cause;
     match (kind, elsewhere) {

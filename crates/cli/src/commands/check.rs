@@ -34,7 +34,7 @@ pub struct Arguments {
     /// A table to read; JSON with every failure; CSV with a line per operation and format; JUnit XML for continuous
     /// integration.
     #[arg(long, value_enum, default_value_t, help_heading = "Output")]
-    format: Format,
+    format: VerdictFormat,
     /// Write the result to this file instead of standard output.
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     output: Option<PathBuf>,
@@ -42,7 +42,7 @@ pub struct Arguments {
 
 /// The form of a verdict.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-enum Format {
+enum VerdictFormat {
     #[default]
     Table,
     Json,
@@ -50,8 +50,8 @@ enum Format {
     Junit,
 }
 
-impl Format {
-    /// That of other results, if it is one.
+impl VerdictFormat {
+    /// Returns the form that other results have too, if it is one.
     fn common(self) -> Option<output::Format> {
         match self {
             Self::Table => Some(output::Format::Table),
@@ -98,12 +98,12 @@ impl Arguments {
     }
 }
 
-/// The files of a folder, as far as it can be read.
+/// Returns the files of a folder, as far as it can be read.
 fn files_in(folder: &Path) -> impl Iterator<Item = PathBuf> {
     fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path())
 }
 
-/// The file that the system runs by this name.
+/// Returns the file that the system runs by this name.
 fn found_on_path(program: &OsStr) -> Option<PathBuf> {
     let folders = env::var_os("PATH")?;
     let found = env::split_paths(&folders).map(|folder| folder.join(program)).find(|path| path.is_file());
@@ -111,7 +111,7 @@ fn found_on_path(program: &OsStr) -> Option<PathBuf> {
     found.filter(|_| Path::new(program).components().count() == 1)
 }
 
-/// A time limit.
+/// Parses a time limit.
 fn seconds(text: &str) -> Result<Duration, String> {
     let seconds = text.parse().ok().filter(|seconds| *seconds > 0.0);
     let limit = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());

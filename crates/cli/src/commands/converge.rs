@@ -58,7 +58,7 @@ impl Arguments {
     }
 }
 
-/// Eight cell sizes of 1, 2 and 5 times powers of ten, the largest at most a quarter of the range.
+/// Returns eight cell sizes of 1, 2 and 5 times powers of ten, the largest at most a quarter of the range.
 fn usual_resolutions(range: f64) -> Vec<f64> {
     let top = format!("{range:e}").split_once('e').and_then(|(_, n)| n.parse().ok()).unwrap_or(0);
     let sizes = (0..12_i32)

@@ -5,7 +5,7 @@ use crate::failure::Failure;
 use crate::metres::positive;
 use crate::output::{Files, Number, Record, Report, Value, Writing, table};
 use clap::{Args, ValueEnum};
-use mean_information::estimate::{Enclosure, Estimate};
+use mean_information::estimate::{self, Enclosure, Estimate};
 use mean_information::limit::{self, RadialModel, RepeatedScans};
 use mean_information::quadrature::adaptive::GaussKronrod;
 use mean_information::quadrature::rigorous::Rigorous;
@@ -23,16 +23,16 @@ pub struct Arguments {
     /// The standard deviation of the sensor, in metres.
     #[arg(long, value_name = "S")]
     sigma: String,
-    /// Which grids the limit belongs to.
+    /// The kind of grids that the limit belongs to.
     #[arg(long, value_enum, default_value_t)]
     weight: Weight,
-    /// How it is computed.
+    /// The way it is computed.
     #[arg(long, value_enum, default_value_t)]
     method: Method,
     /// The type of floats it is computed in; range and sigma are rounded to it.
     #[arg(long, value_enum, default_value_t)]
-    float: Format,
-    /// How many consistent scans are fused; more than one needs the method adaptive or rigorous.
+    float: Float,
+    /// The number of consistent scans that are fused; more than one needs the method adaptive or rigorous.
     #[arg(long, value_name = "N", default_value = "1")]
     scans: NonZeroU32,
     /// The wanted error relative to the deficit, 1 less the limit, for the methods adaptive and rigorous.
@@ -45,7 +45,7 @@ pub struct Arguments {
     writing: Writing,
 }
 
-/// Which grids the limit belongs to.
+/// The kind of grids that the limit belongs to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 enum Weight {
     /// Polar maps, cells of equal width and angle: the report's Eq. 7.
@@ -55,7 +55,7 @@ enum Weight {
     Area,
 }
 
-/// How a limit is computed.
+/// The way a limit is computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 enum Method {
     /// From certified polynomials, with a proved error.
@@ -69,7 +69,7 @@ enum Method {
 
 /// A format of floats.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-enum Format {
+enum Float {
     F32,
     #[default]
     F64,
@@ -78,8 +78,8 @@ enum Format {
 impl Arguments {
     pub(super) fn run(&self) -> Result<Status, Failure> {
         let limit = match self.float {
-            Format::F32 => self.limit::<f32>(),
-            Format::F64 => self.limit::<f64>(),
+            Float::F32 => self.limit::<f32>(),
+            Float::F64 => self.limit::<f64>(),
         }?;
         self.writing.write(&limit, Files::new())?;
         Ok(if limit.status == CONVERGED { Status::Done } else { Status::CheckFailed })
@@ -194,14 +194,15 @@ impl<T: Real> From<Enclosure<T>> for Computed<T> {
     }
 }
 
-fn name<T: Real>(status: mean_information::estimate::Status<T>) -> &'static str {
-    use mean_information::estimate::Status;
+/// Returns the name of an integral's status.
+fn name<T: Real>(status: estimate::Status<T>) -> &'static str {
+    use estimate::Status as Integral;
     match status {
-        Status::Converged => CONVERGED,
-        Status::EvaluationLimit => "evaluation-limit",
-        Status::RoundOff => "round-off",
-        Status::Unresolved { .. } => "unresolved",
-        Status::NotFinite { .. } => "not-finite",
+        Integral::Converged => CONVERGED,
+        Integral::EvaluationLimit => "evaluation-limit",
+        Integral::RoundOff => "round-off",
+        Integral::Unresolved { .. } => "unresolved",
+        Integral::NotFinite { .. } => "not-finite",
         _ => "not-converged",
     }
 }
@@ -236,7 +237,7 @@ impl Limit {
         }
     }
 
-    /// Whether the true value is proved, or only believed, to lie between the ends.
+    /// Returns whether the true value is proved, or only estimated, to lie between the ends.
     fn kind(&self) -> &'static str {
         if self.method == Method::Adaptive { "estimated" } else { "rigorous" }
     }
@@ -284,7 +285,7 @@ impl Report for Limit {
         ])]
     }
 
-    /// One object.
+    /// Returns one object.
     fn json(&self) -> Value {
         self.rows().pop().map_or(Value::Texts(Vec::new()), Value::Record)
     }

@@ -19,13 +19,13 @@ use std::process::ExitCode;
 #[derive(Debug, Parser)]
 #[command(name = "meaninfo", version, arg_required_else_help = false)]
 pub struct Arguments {
-    /// What to do.
+    /// The command.
     #[command(subcommand)]
     pub command: Command,
 }
 
 impl Arguments {
-    /// Those of the command line.
+    /// Parses the command line.
     ///
     /// # Errors
     /// What is wrong with them; also a request for help or for the version.
@@ -40,7 +40,7 @@ impl Arguments {
     }
 }
 
-/// What `meaninfo` can do.
+/// The commands of `meaninfo`.
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// The mean information of maps, and what it is made of.
@@ -66,7 +66,7 @@ pub enum Command {
 }
 
 impl Command {
-    /// Does it.
+    /// Runs the command.
     ///
     /// # Errors
     /// Any refusal; then nothing has been printed, and no file touched.
@@ -85,7 +85,7 @@ impl Command {
     }
 }
 
-/// How a command ended that did what it was asked.
+/// The end of a command that did what it was asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
     /// Exit status 0.

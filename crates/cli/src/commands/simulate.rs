@@ -143,7 +143,7 @@ impl Arguments {
         )))
     }
 
-    /// The prefix with an ending.
+    /// Returns the prefix with an ending.
     fn file(&self, ending: &str) -> Result<PathBuf, Failure> {
         let whole = self.out.as_os_str().as_encoded_bytes();
         if self.out.file_name().is_none_or(|name| !whole.ends_with(name.as_encoded_bytes())) {
@@ -157,7 +157,7 @@ impl Arguments {
         Ok(path.into())
     }
 
-    /// What makes the map again.
+    /// Returns a comment with the command that makes the map again.
     fn comment(&self) -> String {
         let poses = self.poses.map_or(String::new(), |poses| format!(" --poses {poses}"));
         let noise = self.sensor.noise.map_or(String::new(), |noise| format!(" --noise {noise}"));
@@ -190,7 +190,7 @@ struct Saved {
 }
 
 impl Named<'_> {
-    /// The ROS files of a map, and the map that is read from them.
+    /// Returns the ROS files of a map, and the map that is read from them.
     fn save(&self, map: &Grid<Probability<f64>>, comment: &str) -> Result<(Saved, Map), Failure> {
         let name = self.image.file_name().and_then(|name| name.to_str());
         let name = name.ok_or_else(|| Failure::file(self.image, "has a name that is not UTF-8 text"))?;
@@ -211,7 +211,7 @@ impl Named<'_> {
 struct Simulated<'a> {
     arguments: &'a Arguments,
     files: Named<'a>,
-    /// Each true pose with the one that the robot believed in.
+    /// The true poses, each with the one that the robot believed in.
     poses: Vec<[Pose; 2]>,
     measures: Measures,
     /// The measures of the image, as nav2 reads it.
@@ -264,7 +264,7 @@ impl Report for Simulated<'_> {
             "map",
             "poses",
             "cells",
-            "mean information\n(bits / cell)",
+            Measures::MEAN_INFORMATION_HEAD,
             "the same, read\nfrom the image",
             "observed",
             "free / occupied",

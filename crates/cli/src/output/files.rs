@@ -16,7 +16,7 @@ pub struct Files {
 }
 
 impl Files {
-    /// None yet.
+    /// Creates an empty set of files.
     pub fn new() -> Self {
         Self::default()
     }
@@ -139,7 +139,7 @@ fn target(path: &Path) -> Result<PathBuf, Failure> {
     }
 }
 
-/// Whether `path` is one of the links in `/proc` that stand for open files, or leads there, as `/dev/stdin` and
+/// Returns whether `path` is a link in `/proc` that stands for an open file, or leads there, as `/dev/stdin` and
 /// `/dev/fd/3` do: replacing what they mean would take it from the program that has it open.
 fn is_descriptor(path: &Path) -> bool {
     let mut path = path.to_owned();
@@ -171,7 +171,7 @@ fn stage(target: &Path, contents: &[u8]) -> io::Result<TempPath> {
     Ok(temporary.into_temp_path())
 }
 
-/// Those of any new file, which the process's umask narrows; a temporary file's own would hide it from other users.
+/// Sets the permissions of any new file, which umask narrows; a temporary file's own would hide it from other users.
 fn ordinary_permissions(builder: &mut Builder<'_, '_>) {
     #[cfg(unix)]
     {

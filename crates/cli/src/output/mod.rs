@@ -6,6 +6,7 @@ mod record;
 mod standard_output;
 mod table;
 mod writing;
+mod xml;
 
 pub use files::Files;
 pub use number::Number;
@@ -13,6 +14,7 @@ pub(crate) use number::{decimal_exponent, short};
 pub use record::{Record, Value};
 pub use table::{folded, table, text_table, with_notes, wrapped};
 pub use writing::{Writing, write_text};
+pub(crate) use xml::escaped;
 
 use clap::ValueEnum;
 
@@ -30,18 +32,18 @@ pub enum Format {
 
 /// A result that can be written in every [`Format`].
 pub trait Report {
-    /// For people; ends with a newline.
+    /// Returns the table for people; it ends with a newline.
     fn table(&self) -> String;
 
-    /// One record per row; all have the same keys.
+    /// Returns one record per row; all have the same keys.
     fn rows(&self) -> Vec<Record>;
 
-    /// The array of the rows, unless a command says otherwise.
+    /// Returns the array of the rows, unless a command says otherwise.
     fn json(&self) -> Value {
         Value::Records(self.rows())
     }
 
-    /// The text in one of the formats.
+    /// Returns the text in one of the formats.
     fn text(&self, format: Format) -> String {
         match format {
             Format::Table => self.table(),

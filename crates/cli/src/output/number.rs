@@ -25,8 +25,8 @@ impl Number {
         }
     }
 
-    /// A number that was given, in single precision if that holds it: what a file stores as the `f32` nearest to 0.04 is
-    /// 0.04, not 0.03999999910593033.
+    /// Wraps a number that was given, in single precision if that holds it: what a file stores as the `f32` nearest to
+    /// 0.04 is 0.04, not 0.03999999910593033.
     pub fn given(x: f64) -> Self {
         if f64::from(x as f32) == x { Self::Single(x as f32) } else { Self::Double(x) }
     }
@@ -67,7 +67,7 @@ impl Serialize for Number {
     }
 }
 
-/// `x` to at most four significant digits.
+/// Returns `x` to at most four significant digits.
 pub(crate) fn short(x: f64) -> String {
     let rounded: f64 = format!("{x:.3e}").parse().unwrap_or(x);
     if rounded == 0.0 || (-4..6).contains(&decimal_exponent(rounded)) {

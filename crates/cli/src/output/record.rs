@@ -9,7 +9,7 @@ use serde::{Serialize, Serializer};
 pub enum Value {
     /// A name.
     Text(String),
-    /// How many.
+    /// A count.
     Count(u64),
     /// Yes or no.
     Flag(bool),
@@ -24,7 +24,7 @@ pub enum Value {
     Texts(Vec<String>),
     /// Several records.
     Records(Vec<Record>),
-    /// One record.
+    /// A nested record.
     Record(Record),
 }
 
@@ -71,14 +71,14 @@ fn twin(key: &str) -> String {
     format!("{key}_hex")
 }
 
-/// Indented JSON with a newline at the end.
+/// Returns indented JSON with a newline at the end.
 pub(super) fn to_json(value: &Value) -> String {
     // Strings and numbers under string keys: serialisation cannot fail.
     serde_json::to_string_pretty(value).unwrap_or_default() + "\n"
 }
 
-/// A header and one line per record. What is unknown is an empty field; sentences and numbers of a list are joined by
-/// `; `.
+/// Returns a header and one line per record. What is unknown is an empty field; sentences and numbers of a list are
+/// joined by `; `.
 pub(super) fn to_csv(records: &[Record]) -> String {
     let mut lines = records.iter().map(csv_fields).peekable();
     let header = lines.peek().map(|fields| fields.iter().map(|(key, _)| key.clone()).collect::<Vec<_>>());
@@ -116,7 +116,7 @@ fn csv_fields(record: &Record) -> Vec<(String, String)> {
     fields
 }
 
-/// Numbers in one field, separated by `; `, those that are missing being empty.
+/// Joins numbers in one field, separated by `; `; a missing one is empty.
 fn joined(numbers: &[Option<Number>], text: fn(Number) -> String) -> String {
     let texts: Vec<String> = numbers.iter().map(|number| number.map(text).unwrap_or_default()).collect();
     texts.join("; ")

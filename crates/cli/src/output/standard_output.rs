@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use std::io::{self, ErrorKind, Write};
 use std::path::Path;
 
-/// Whether `path` is what standard output goes to: `/dev/stdout`, or the file it was redirected to.
+/// Returns whether `path` is what standard output goes to: `/dev/stdout`, or the file it was redirected to.
 pub(super) fn is(path: &Path) -> bool {
     #[cfg(unix)]
     {

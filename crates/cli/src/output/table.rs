@@ -6,13 +6,13 @@ use comfy_table::{Cell, CellAlignment, ContentArrangement, LineStyle, Table, pre
 /// Names are wrapped to this many characters, as far as they have folders to wrap after.
 const NAME_WIDTH: usize = 20;
 
-/// A table of numbers: its columns are set right, but the first, which holds names. The same text in a terminal and in
-/// a file: as wide as its contents, for a number broken in two is no number.
+/// Returns a table of numbers: its columns are set right, but the first, which holds names. The same text in a terminal
+/// and in a file: as wide as its contents, for a number broken in two is no number.
 pub fn table<const N: usize>(header: [&str; N], rows: impl IntoIterator<Item = [String; N]>) -> String {
     aligned(header, rows, CellAlignment::Right)
 }
 
-/// A table of texts, set left.
+/// Returns a table of texts, set left.
 pub fn text_table<const N: usize>(header: [&str; N], rows: impl IntoIterator<Item = [String; N]>) -> String {
     aligned(header, rows, CellAlignment::Left)
 }

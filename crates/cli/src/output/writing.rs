@@ -5,7 +5,7 @@ use crate::failure::Failure;
 use clap::Args;
 use std::path::{Path, PathBuf};
 
-/// Where the result goes, and in what form.
+/// The form of the result, and the place it goes to.
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Output")]
 pub struct Writing {

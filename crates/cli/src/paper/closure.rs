@@ -22,7 +22,7 @@ const SEEDS: [u64; 13] = [1, 4, 7, 10, 13, 16, 19, 22, 25, 28, 31, 34, 37];
 const PARTICLES: usize = 20;
 const RESOLUTION: f64 = 0.1;
 
-/// What is known after a step.
+/// The measures after a step.
 #[derive(Clone, Debug)]
 struct Step {
     emmi: f64,
@@ -89,14 +89,14 @@ impl Series {
         [&self.steps[self.closure - 1], &self.steps[self.steps.len() - 1]]
     }
 
-    /// Whether something grows from before the loop closes to the end.
+    /// Returns whether a measure grows from before the loop closes to the end.
     fn grows(&self, of: fn(&Step) -> f64) -> bool {
         let [before, after] = self.before_and_after().map(of);
         after > before
     }
 
-    /// By how much something grows over the closure, as a part of the most it grew over as many steps before; the first
-    /// step, which begins with nothing, left out.
+    /// Returns how much a measure grows over the closure, relative to the most it grew over as many steps before; the
+    /// first step, which begins with nothing, is left out.
     fn prominence(&self, of: fn(&Step) -> f64) -> f64 {
         let [before, after] = self.before_and_after().map(of);
         let window = self.steps.len() - self.closure;
@@ -116,7 +116,7 @@ impl Step {
         self.mean_of_particles - self.emmi
     }
 
-    /// What a margin of unknown cells, 1 m all round, adds to the entropy, in bits.
+    /// Returns what a margin of unknown cells, 1 m all round, adds to the entropy, in bits.
     fn margin(&self) -> f64 {
         let metre = 1.0 / RESOLUTION;
         let [width, height] = [self.expected.width(), self.expected.height()].map(|cells| cells as f64);

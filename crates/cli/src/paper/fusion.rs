@@ -14,11 +14,11 @@ use std::f64::consts::PI;
 
 const SIGMA: f64 = 0.05;
 const RESOLUTION: f64 = 0.05;
-/// How far the second scan is put out of place: metres along x and y, radians.
+/// The displacement of the second scan: metres along x and y, radians.
 const MISPLACED: [f64; 3] = [0.25, -0.15, 0.1];
 const ROOMS: u64 = 100;
 
-/// In random rooms the second scan is also moved this far, in a random direction, in metres.
+/// The distances, in metres, by which the second scan is also moved in random rooms, in random directions.
 const MOVED: [f64; 5] = [0.01, 0.02, 0.05, 0.1, 0.2];
 
 /// Two scans of a room.
@@ -65,7 +65,7 @@ impl Scans {
         Ok([first.log_odds()?, self.alone(1)?.log_odds()?, aligned.log_odds()?, misaligned.log_odds()?])
     }
 
-    /// How many cells both scans observe, but for exactly opposite log-odds, if the second is misplaced: with another
+    /// Counts the cells that both scans observe with exactly opposite log-odds, if the second is misplaced: with another
     /// limit on its readings these are not exactly opposite.
     fn contradictions(&self) -> Result<u64, Error> {
         let first = self.alone(0)?;
@@ -76,14 +76,14 @@ impl Scans {
     }
 }
 
-/// How often the claims of Fig. 1 hold in random rooms.
+/// The numbers of random rooms in which the claims of Fig. 1 hold.
 #[derive(Debug, Default, PartialEq)]
 struct Counts {
     better_aligned: u64,
     worse_misaligned: u64,
     more_observed: u64,
     maps: u64,
-    /// Those with a mean information from 0 to 1.
+    /// The number with a mean information from 0 to 1.
     within: u64,
     /// The rooms in which the scans inform less with the second moved by each of [`MOVED`].
     worse_moved: [u64; MOVED.len()],

@@ -22,11 +22,11 @@ use std::thread;
 pub struct Figure {
     /// The name of its file.
     pub file: &'static str,
-    /// Its name in the report, and what it is about.
+    /// The name in the report, and the subject.
     pub title: &'static str,
-    /// What the report says it shows.
+    /// The report's statement of what it shows.
     pub should: &'static str,
-    /// What it shows here.
+    /// The finding here.
     pub shows: String,
     /// The picture, which describes itself to those who do not see it.
     pub picture: Sheet,
@@ -35,29 +35,29 @@ pub struct Figure {
 /// Something the report says that can be checked.
 #[derive(Debug)]
 pub struct Claim {
-    /// Where it stands in the report.
+    /// The place in the report.
     pub place: &'static str,
-    /// What is claimed.
+    /// The claim.
     pub claim: &'static str,
-    /// What was measured; of a corrected claim also what holds instead.
+    /// The measurement; of a corrected claim also what holds instead.
     pub measured: String,
-    /// How it fared.
+    /// The verdict.
     pub verdict: Verdict,
 }
 
-/// How a claim fared.
+/// The verdict on a claim.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// It holds as it stands.
+    /// The claim holds as it stands.
     Pass,
-    /// It does not hold as it stands; what holds instead was checked.
+    /// The claim does not hold as it stands; what holds instead was checked.
     Corrected,
-    /// It, or what should hold instead, was found not to hold.
+    /// The claim, or what should hold instead, was found not to hold.
     Fail,
 }
 
 impl Verdict {
-    /// In a word.
+    /// Returns the verdict in a word.
     pub fn name(self) -> &'static str {
         match self {
             Self::Pass => "pass",
@@ -68,13 +68,13 @@ impl Verdict {
 }
 
 impl Claim {
-    /// A claim that holds as it stands if the check does.
+    /// Creates a claim that holds as it stands if the check does.
     fn new(place: &'static str, claim: &'static str, holds: bool, measured: String) -> Self {
         let verdict = if holds { Verdict::Pass } else { Verdict::Fail };
         Self { place, claim, measured, verdict }
     }
 
-    /// A claim that does not hold as it stands; `holds` is the check of what does.
+    /// Creates a claim that does not hold as it stands; `holds` is the check of what does.
     fn corrected(place: &'static str, claim: &'static str, holds: bool, measured: String) -> Self {
         let verdict = if holds { Verdict::Corrected } else { Verdict::Fail };
         Self { place, claim, measured, verdict }
@@ -94,9 +94,9 @@ type Job = (&'static str, fn() -> Result<Section, Failure>);
 /// The report, reproduced.
 #[derive(Debug)]
 pub struct Paper {
-    /// In the order of the report.
+    /// The figures, in the order of the report.
     pub figures: Vec<Figure>,
-    /// In the order of the figures.
+    /// The claims, in the order of the figures.
     pub claims: Vec<Claim>,
 }
 
@@ -145,7 +145,7 @@ impl Paper {
         Ok(paper)
     }
 
-    /// Whether no check failed.
+    /// Returns whether no check failed.
     pub fn holds(&self) -> bool {
         self.claims.iter().all(|claim| claim.verdict != Verdict::Fail)
     }

@@ -1,7 +1,7 @@
 //! The page: text, figures and table in one file that needs no other.
 
 use super::{Claim, Figure, Paper, Verdict};
-use crate::plots::escaped;
+use crate::output::escaped;
 
 const STYLE: &str = include_str!("page.css");
 

@@ -12,13 +12,13 @@ use std::panic::resume_unwind;
 use std::thread;
 
 const SIGMA: f64 = 0.05;
-/// In metres.
+/// The cell sizes, in metres.
 const RESOLUTIONS: [f64; 9] = [1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.0025];
 /// The cells of Fig. 2 (a) to (c).
 const SHOWN: [f64; 3] = [0.5, 0.2, 0.05];
-/// Those that are in common use, between which the report sees little change.
+/// The cell sizes in common use, between which the report sees little change.
 const COMMON: [f64; 2] = [0.1, 0.02];
-/// With the many beams, only down to this size.
+/// The smallest cell size with the many beams.
 const FINEST: f64 = 0.005;
 const BEAMS: u32 = 720;
 const MANY_BEAMS: u32 = 3600;
@@ -79,13 +79,13 @@ fn inserted(beams: u32, finest: f64) -> Result<(Sizes, Grid<LogOdds<f64>>), Erro
     Ok((Sizes(sizes), last))
 }
 
-/// A map with its cells averaged by powers of two, up to 64 cm.
+/// Averages the cells of a map by powers of two, up to 64 cm.
 fn averaged(map: &Grid<LogOdds<f64>>) -> Result<Sizes, Error> {
     let pooled = |k: u32| Ok((FINEST * f64::from(k), map.pooled(k as usize)?.tally()));
     (0..8).rev().map(|n| pooled(1 << n)).collect::<Result<_, _>>().map(Sizes)
 }
 
-/// What is measured.
+/// The measures of one map.
 struct Measured {
     /// The few beams inserted at each resolution,
     few: Sizes,
@@ -107,7 +107,7 @@ impl Measured {
         })
     }
 
-    /// By how much the mean information differs between the sizes in common use.
+    /// Returns the difference of the mean information between the sizes in common use.
     fn spread(&self) -> f64 {
         let common = RESOLUTIONS.into_iter().filter(|size| (COMMON[1]..=COMMON[0]).contains(size));
         let values = common.map(|size| self.few.at(size));

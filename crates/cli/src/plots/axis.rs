@@ -29,7 +29,7 @@ impl Ranged for Axis {
     }
 }
 
-/// The label of a tick of a decimal logarithm.
+/// Returns the label of a tick of a decimal logarithm.
 pub(super) fn power_of_ten(exponent: i32) -> String {
     format!("1e{exponent}").parse().map_or(String::new(), short)
 }

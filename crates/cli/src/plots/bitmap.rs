@@ -9,17 +9,17 @@ pub(super) struct Bitmap {
 }
 
 impl Bitmap {
-    /// White paper.
+    /// Creates a white picture.
     pub(super) fn new(width: u32, height: u32) -> Self {
         Self { size: (width, height), pixels: vec![[255; 3]; width as usize * height as usize] }
     }
 
-    /// Width and height.
+    /// Returns width and height.
     pub(super) fn size(&self) -> (u32, u32) {
         self.size
     }
 
-    /// The pixel in column `x` and row `y`; `None` outside the picture.
+    /// Returns the pixel in column `x` and row `y`; `None` outside the picture.
     pub(super) fn pixel(&mut self, x: i32, y: i32) -> Option<&mut [u8; 3]> {
         let (x, y) = (u32::try_from(x).ok()?, u32::try_from(y).ok()?);
         let (width, height) = self.size;
@@ -33,7 +33,7 @@ impl Bitmap {
         }
     }
 
-    /// The bytes of its PNG file.
+    /// Returns the bytes of its PNG file.
     pub(super) fn png(&self) -> Result<Vec<u8>, EncodingError> {
         let mut bytes = Vec::new();
         let mut encoder = Encoder::new(&mut bytes, self.size.0, self.size.1);

@@ -161,7 +161,7 @@ fn distance_from_segment((x, y): (f64, f64), from: BackendCoord, to: BackendCoor
     (dx * dx + dy * dy).sqrt()
 }
 
-/// One of the fonts at hand, the one nearest to what a style asks for.
+/// The font at hand that is nearest to what a style asks for.
 #[derive(Clone, Copy)]
 struct Font {
     weight: FontWeight,

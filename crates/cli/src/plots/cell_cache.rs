@@ -10,12 +10,12 @@ const SLOTS: u32 = 12;
 pub(super) struct CellCache<E: Encoding>(Vec<Option<(u64, Cell<E::Float>)>>);
 
 impl<E: Encoding> CellCache<E> {
-    /// Nothing is known yet.
+    /// Creates an empty cache.
     pub(super) fn new() -> Self {
         Self(vec![None; 1 << SLOTS])
     }
 
-    /// [`Encoding::cell`].
+    /// Returns [`Encoding::cell`] of a stored value.
     pub(super) fn cell(&mut self, stored: E::Stored) -> Option<Cell<E::Float>> {
         let value = E::value(stored).to_bits();
         // Fibonacci hashing: the high bits of a product with 2^64 over the golden ratio.

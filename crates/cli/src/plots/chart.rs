@@ -1,9 +1,9 @@
 //! Curves in panels over one horizontal axis.
 
 use super::axis::{Axis, power_of_ten};
+use super::drawing::{Drawing, LABEL};
 use super::frame::{Side, curve, frame, legend};
 use super::scale::{logarithmic_ticks, ticks};
-use super::{Drawing, LABEL, TITLE};
 use crate::output::short;
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -13,7 +13,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 const WIDTH: u32 = 640;
 const PANEL_HEIGHT: u32 = 350;
 const TITLE_HEIGHT: u32 = 36;
-/// What is left of a panel's height between its axes.
+/// The height of a panel between its axes.
 const PLOT_HEIGHT: f64 = 275.0;
 /// The heights of a line of the legend and of what is around it.
 const LEGEND: [f64; 2] = [22.0, 26.0];
@@ -23,17 +23,17 @@ const MARGINS: [f64; 2] = [0.02, 0.06];
 /// Panels below each other.
 #[derive(Debug)]
 pub struct Chart<const PANELS: usize> {
-    /// What it shows.
+    /// The title.
     pub title: String,
-    /// What is along the horizontal axis.
+    /// The title of the horizontal axis.
     pub horizontal: &'static str,
     /// The scale of that axis.
     pub scale: Scale,
-    /// From top to bottom.
+    /// The panels, from top to bottom.
     pub panels: [Panel; PANELS],
 }
 
-/// How numbers lie along an axis.
+/// The scale of an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scale {
     /// Equal distances for equal differences.
@@ -45,9 +45,9 @@ pub enum Scale {
 /// Curves with one vertical axis.
 #[derive(Debug)]
 pub struct Panel {
-    /// What is along the vertical axis.
+    /// The title of the vertical axis.
     pub vertical: &'static str,
-    /// Its scale.
+    /// The scale of the vertical axis.
     pub scale: Scale,
     /// The curves; at least one point among them.
     pub curves: Vec<Curve>,
@@ -58,13 +58,13 @@ pub struct Panel {
 /// Points that are connected.
 #[derive(Debug)]
 pub struct Curve {
-    /// Its name in the legend.
+    /// The name in the legend.
     pub name: String,
-    /// Its colour.
+    /// The colour.
     pub colour: Colour,
-    /// Whether each point gets a dot.
+    /// True if each point gets a dot.
     pub dots: bool,
-    /// From left to right.
+    /// The points, from left to right.
     pub points: Vec<(f64, f64)>,
 }
 
@@ -97,7 +97,7 @@ impl Scale {
         }
     }
 
-    /// The axis of numbers at these places, with a part of it free at its end.
+    /// Returns the axis of numbers at these places, with a part of it free at its end.
     fn axis(self, places: impl Iterator<Item = f64>, margin: f64, free: f64) -> Axis {
         let (low, high) =
             places.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
@@ -122,12 +122,14 @@ impl Scale {
 impl<const PANELS: usize> Drawing for Chart<PANELS> {
     const SIZE: (u32, u32) = (WIDTH, TITLE_HEIGHT + PANELS as u32 * PANEL_HEIGHT);
 
-    fn draw_on<B: DrawingBackend>(
+    fn title(&self) -> String {
+        self.title.clone()
+    }
+
+    fn draw_below_title<B: DrawingBackend>(
         &self,
         paper: &DrawingArea<B, Shift>,
     ) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
-        paper.fill(&WHITE)?;
-        let paper = paper.titled(&self.title, TITLE.into_font().color(&BLACK))?;
         for (area, panel) in paper.split_evenly((PANELS, 1)).iter().zip(&self.panels) {
             self.draw_panel(area, panel)?;
         }

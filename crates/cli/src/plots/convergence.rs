@@ -3,9 +3,9 @@
 
 use super::axis::Axis;
 use super::chart::Colour;
+use super::drawing::Drawing;
 use super::frame::{Side, curve, frame, legend};
 use super::scale::logarithmic_ticks;
-use super::{Drawing, TITLE};
 use crate::convergence::{Convergence, GridKind, Series};
 use crate::output::{decimal_exponent, short};
 use plotters::coord::Shift;
@@ -16,19 +16,19 @@ const SIZE: (u32, u32) = (720, 560);
 /// The part of the vertical axis above the curves, where the legend meets none.
 const LEGEND_ROOM: f64 = 0.45;
 
-/// One panel, the cell size on a logarithmic axis.
+/// A plot of one panel, the cell size on a logarithmic axis.
 #[derive(Debug)]
 pub struct ConvergencePlot<'a> {
     convergence: &'a Convergence,
 }
 
 impl<'a> ConvergencePlot<'a> {
-    /// The plot of `convergence`.
+    /// Creates the plot of `convergence`.
     pub fn new(convergence: &'a Convergence) -> Self {
         Self { convergence }
     }
 
-    /// The cell sizes of all rows as decimal logarithms, from the smallest.
+    /// Returns the cell sizes of all rows as decimal logarithms, from the smallest.
     fn logarithms(&self) -> Vec<f64> {
         let rows = self.convergence.series.iter().flat_map(|series| &series.rows);
         let mut logarithms: Vec<f64> = rows.map(|row| libm::log10(row.resolution)).collect();
@@ -45,8 +45,8 @@ impl<'a> ConvergencePlot<'a> {
         Axis { ticks: logarithmic_ticks(&(range.start..=range.end)), range }
     }
 
-    /// From below the lowest value and limit to above the highest, in steps of 1, 2 or 5 times a power of ten, but no tick
-    /// above 1, which nothing exceeds; the bands are cut to the ticks.
+    /// Returns the axis from below the lowest value and limit to above the highest, in steps of 1, 2 or 5 times a power of
+    /// ten, but no tick above 1, which nothing exceeds; the bands are cut to the ticks.
     fn vertical(&self) -> Axis {
         let of_series = |series: &Series| {
             series.rows.iter().map(|row| row.mean_information).chain([series.limit]).collect::<Vec<_>>()
@@ -75,21 +75,22 @@ fn colour(kind: GridKind) -> RGBColor {
 impl Drawing for ConvergencePlot<'_> {
     const SIZE: (u32, u32) = SIZE;
 
-    fn draw_on<B: DrawingBackend>(
+    fn title(&self) -> String {
+        let Convergence { range, sigma, .. } = *self.convergence;
+        format!("A circular room: range {} m, sigma {} m", short(range), short(sigma))
+    }
+
+    fn draw_below_title<B: DrawingBackend>(
         &self,
         paper: &DrawingArea<B, Shift>,
     ) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
-        paper.fill(&WHITE)?;
-        let Convergence { range, sigma, .. } = *self.convergence;
-        let title = format!("A circular room: range {} m, sigma {} m", short(range), short(sigma));
-        let paper = paper.titled(&title, TITLE.into_font().color(&BLACK))?;
         let (horizontal, vertical) = (self.horizontal(), self.vertical());
         let ends = [horizontal.range.start, horizontal.range.end];
         // The legend has the room above the ticks.
         let highest = vertical.ticks.last().map_or(vertical.range.end, |&tick| tick);
         let inside = |y: f64| y.clamp(vertical.range.start, highest);
         let mut chart = frame(
-            &paper,
+            paper,
             Side {
                 axis: horizontal,
                 title: "cell size (m)",

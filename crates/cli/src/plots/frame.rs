@@ -1,11 +1,11 @@
 //! What the plots of curves share: the frame with its axes, the curves, the legend.
 
-use super::LABEL;
 use super::axis::Axis;
+use super::drawing::LABEL;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-/// What is along a side of the frame.
+/// A side of the frame: its axis, with a title and labels.
 pub(super) struct Side<'a> {
     pub(super) axis: Axis,
     pub(super) title: &'a str,
@@ -15,7 +15,7 @@ pub(super) struct Side<'a> {
 pub(super) type Frame<'a, B> = ChartContext<'a, B, Cartesian2d<Axis, Axis>>;
 pub(super) type Failure<E> = DrawingAreaErrorKind<E>;
 
-/// The frame, its axes and the lines at their ticks.
+/// Draws the frame, its axes and the lines at their ticks.
 pub(super) fn frame<'a, B: DrawingBackend>(
     area: &DrawingArea<B, Shift>,
     horizontal: Side,
@@ -42,7 +42,7 @@ pub(super) fn frame<'a, B: DrawingBackend>(
     Ok(frame)
 }
 
-/// A line through the points, with dots on them if wanted, and its line in the legend.
+/// Draws a line through the points, with dots on them if wanted, and its line in the legend.
 pub(super) fn curve<'a, B: DrawingBackend + 'a>(
     frame: &mut Frame<'a, B>,
     name: &str,
@@ -63,7 +63,7 @@ pub(super) fn curve<'a, B: DrawingBackend + 'a>(
     Ok(())
 }
 
-/// The names of what is drawn, in the upper right corner.
+/// Draws the names of the curves in the upper right corner.
 pub(super) fn legend<'a, B: DrawingBackend + 'a>(
     frame: &mut Frame<'a, B>,
 ) -> Result<(), Failure<B::ErrorType>> {

@@ -3,8 +3,8 @@
 use super::bitmap::Bitmap;
 use super::canvas::Canvas;
 use super::cell_cache::CellCache;
+use super::drawing::{LABEL, TITLE, drawing_failure};
 use super::scale::ticks;
-use super::{LABEL, TITLE, drawing_failure};
 use crate::failure::Failure;
 use mean_information::Real;
 use mean_information::cell::State;
@@ -24,10 +24,10 @@ const UNKNOWN: [u8; 3] = [190, 190, 190];
 const TOP: i32 = 84;
 const LEFT: i32 = 84;
 const BOTTOM: i32 = 64;
-/// From the map to the colour bar.
+/// The gap between the map and the colour bar, in pixels.
 const GAP: i32 = 32;
 const BAR_WIDTH: i32 = 22;
-/// From the colour bar to the right edge: tick labels, and the legend's title.
+/// The room right of the colour bar, in pixels: tick labels, and the legend's title.
 const RIGHT: i32 = 96;
 /// The legend's title needs this much.
 const LEAST_BAR: i32 = 250;
@@ -48,7 +48,7 @@ pub struct HeatMap {
     axes: [MapAxis; 2],
 }
 
-/// One axis of the map, in metres or in cells.
+/// An axis of the map, in metres or in cells.
 #[derive(Debug, PartialEq)]
 struct MapAxis {
     start: f64,
@@ -57,8 +57,8 @@ struct MapAxis {
 }
 
 impl MapAxis {
-    /// From the origin, or from the map's corner if the file has no metres, if the map is turned against the axes of the
-    /// world, or if it lies so far out that labels would be all digits.
+    /// Creates an axis from the origin, or from the map's corner if the file has no metres, if the map is turned against
+    /// the axes of the world, or if it lies so far out that labels would be all digits.
     fn new(name: &str, origin: Option<f64>, extent: f64, yaw: f64) -> Self {
         let (start, label) = match origin {
             None => (0.0, format!("{name} (cells)")),
@@ -190,7 +190,7 @@ impl HeatMap {
         label((bar_right + 8, layout.swatch_top() + SWATCH / 2), HPos::Left, VPos::Center, "unknown")
     }
 
-    /// What a square of colour stands for.
+    /// Returns what a square of colour stands for.
     fn reduction(&self) -> String {
         match (self.block, self.zoom) {
             (1, 1) => "one pixel per cell".to_owned(),
@@ -245,7 +245,7 @@ fn along(x: f64, end: f64, pixels: i32) -> i32 {
     (x / end * f64::from(pixels - 1)).round() as i32
 }
 
-/// Where things lie, in pixels.
+/// The places of the parts of the picture, in pixels.
 struct Layout {
     width: i32,
     height: i32,

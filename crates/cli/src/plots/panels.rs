@@ -1,7 +1,7 @@
 //! Maps side by side, all of one piece of the world: white is free, black is occupied, blue-grey is unknown.
 
 use super::bitmap::Bitmap;
-use super::drawing_failure;
+use super::drawing::drawing_failure;
 use super::svg::Svg;
 use crate::failure::Failure;
 use base64::Engine;
@@ -11,9 +11,9 @@ use mean_information::map::{Encoding, Grid};
 
 const WIDTH: u32 = 900;
 const GAP: f64 = 16.0;
-/// For a title and a line of text above a map.
+/// The height of a title and a line of text above a map.
 const TITLES: f64 = 50.0;
-/// For the scale below a map.
+/// The height of the scale below a map.
 const SCALE: f64 = 44.0;
 /// A cell is drawn as a square of pixels, so many that the map has about this many pixels a side: viewers that smooth
 /// what they enlarge would blur it.
@@ -30,12 +30,12 @@ pub struct MapPanel {
     png: Vec<u8>,
     /// Left, lower, right and upper end of the map, in metres.
     extent: [f64; 4],
-    /// Where the sensor was, in metres.
+    /// The places of the sensor, in metres.
     places: Vec<[f64; 2]>,
 }
 
 impl MapPanel {
-    /// The panel of a grid.
+    /// Creates the panel of a grid.
     ///
     /// # Errors
     /// None is known, but for a grid without cells.
@@ -71,7 +71,7 @@ fn colour(occupancy: Option<f64>) -> [u8; 3] {
     }
 }
 
-/// The panels in rows of so many, each with a scale.
+/// Draws the panels in rows of so many, each with a scale.
 pub fn panels(panels: &[MapPanel], columns: usize) -> Vec<Vec<Svg>> {
     let ends =
         |k: usize, first: f64, of: fn(f64, f64) -> f64| panels.iter().map(|p| p.extent[k]).fold(first, of);
@@ -83,7 +83,7 @@ pub fn panels(panels: &[MapPanel], columns: usize) -> Vec<Vec<Svg>> {
 }
 
 impl MapPanel {
-    /// The panel with this part of the world, in metres.
+    /// Draws the panel with this part of the world, in metres.
     fn draw(&self, [left, lower, right, upper]: [f64; 4], whole_width: u32) -> Svg {
         let width = f64::from(whole_width) - GAP;
         let x = GAP / 2.0;

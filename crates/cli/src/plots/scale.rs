@@ -3,7 +3,7 @@
 use crate::output::{decimal_exponent, short};
 use std::ops::RangeInclusive;
 
-/// The multiples of 1, 2 or 5 times a power of ten within `start..=end`, at most `most` and one, with their texts.
+/// Returns the multiples of 1, 2 or 5 times a power of ten within `start..=end`, at most `most` and one, with texts.
 ///
 /// Decimal throughout, so that a tick is labelled `0.3` and not `0.30000000000000004`. `start` is finite and below `end`,
 /// and no further from 0 than some hundred times their distance, or the texts would be cut.
@@ -41,7 +41,7 @@ pub(super) fn logarithmic_ticks(range: &RangeInclusive<f64>) -> Vec<f64> {
     within
 }
 
-/// `digits * 10^n` and its text.
+/// Returns `digits * 10^n` and its text.
 fn decimal(digits: i64, n: i32) -> (f64, String) {
     let x = format!("{digits}e{n}").parse().unwrap_or(f64::NAN);
     (x, short(x))

@@ -1,7 +1,8 @@
 //! Pictures put together as SVG: plots and maps placed on one sheet.
 
-use super::{Drawing, Picture};
+use super::drawing::{Drawing, Picture};
 use crate::failure::Failure;
+use crate::output::escaped;
 
 /// A picture of so many pixels, without its outermost tags.
 #[derive(Clone, Debug)]
@@ -12,7 +13,7 @@ pub struct Svg {
 }
 
 impl Svg {
-    /// An empty sheet.
+    /// Creates an empty picture.
     pub fn new(width: u32, height: u32) -> Self {
         Self {
             width,
@@ -21,7 +22,7 @@ impl Svg {
         }
     }
 
-    /// A plot.
+    /// Draws a plot as a picture.
     ///
     /// # Errors
     /// Those of drawing it.
@@ -49,7 +50,7 @@ impl Svg {
         ));
     }
 
-    /// The element, with more attributes.
+    /// Returns the element, with more attributes.
     fn element(&self, attributes: &str) -> String {
         let Self { width, height, body } = self;
         format!(
@@ -66,12 +67,12 @@ pub struct Sheet {
 }
 
 impl Sheet {
-    /// The rows, with a description for those who do not see them.
+    /// Creates a sheet of rows, with a description for those who do not see them.
     pub fn new(rows: Vec<Vec<Svg>>, description: String) -> Self {
         Self { rows, description }
     }
 
-    /// The SVG file.
+    /// Returns the SVG file.
     pub fn file(&self) -> String {
         let size = |row: &[Svg]| {
             (
@@ -97,7 +98,7 @@ impl Sheet {
         ))
     }
 
-    /// The element of a page.
+    /// Returns the element of a page.
     pub fn element(&self) -> String {
         let description = escaped(&self.description);
         let row = |row: &Vec<Svg>| {
@@ -107,11 +108,6 @@ impl Sheet {
         let rows: String = self.rows.iter().map(row).collect();
         format!("<div class=\"sheet\" role=\"img\" aria-label=\"{description}\">\n{rows}</div>\n")
     }
-}
-
-/// The text with the characters of markup escaped, for XML and HTML, within elements and attributes.
-pub fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 #[cfg(test)]

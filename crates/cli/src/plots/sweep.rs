@@ -2,8 +2,8 @@
 
 use super::axis::{Axis, power_of_ten};
 use super::chart::Colour;
+use super::drawing::Drawing;
 use super::frame::{Side, curve, frame, legend};
-use super::{Drawing, TITLE};
 use crate::output::short;
 use crate::sweep::{Step, Sweep};
 use plotters::coord::Shift;
@@ -21,15 +21,15 @@ pub struct SweepPlot {
     title: String,
     cell_axis: String,
     cell_sizes: Vec<String>,
-    /// By step, in bits per observed cell.
+    /// The mean information of each step, in bits per observed cell.
     mean_information: Vec<(f64, f64)>,
-    /// By step, as the decimal logarithm of bits.
+    /// The entropy of each step, as the decimal logarithm of bits.
     entropy: Vec<(f64, f64)>,
     entropy_label: &'static str,
 }
 
-/// A panel: its curve, and its vertical axis.
-struct Panel<'a> {
+/// A curve, and its vertical axis.
+struct Half<'a> {
     axis: Axis,
     axis_label: &'a str,
     label: &'a str,
@@ -39,7 +39,7 @@ struct Panel<'a> {
 }
 
 impl SweepPlot {
-    /// The plot of `sweep`.
+    /// Creates the plot of `sweep`.
     pub fn new(sweep: &Sweep, map: &str) -> Self {
         let size = |step: &Step| short(sweep.cell_size(step).unwrap_or(step.k as f64));
         let steps = || (0_u32..).map(f64::from).zip(&sweep.steps);
@@ -71,16 +71,18 @@ impl SweepPlot {
 impl Drawing for SweepPlot {
     const SIZE: (u32, u32) = SIZE;
 
-    fn draw_on<B: DrawingBackend>(
+    fn title(&self) -> String {
+        self.title.clone()
+    }
+
+    fn draw_below_title<B: DrawingBackend>(
         &self,
         paper: &DrawingArea<B, Shift>,
     ) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
-        paper.fill(&WHITE)?;
-        let paper = paper.titled(&self.title, TITLE.into_font().color(&BLACK))?;
         let (upper, lower) = paper.split_vertically(SIZE.1 as i32 / 2 - 26);
-        self.draw_panel(
+        self.draw_half(
             &upper,
-            &Panel {
+            &Half {
                 axis: Axis { range: 0.0..1.0 + LEGEND_ROOM, ticks: vec![0.0, 0.2, 0.4, 0.6, 0.8, 1.0] },
                 axis_label: "mean information (bits / cell)",
                 label: "mean information of the observed cells",
@@ -94,9 +96,9 @@ impl Drawing for SweepPlot {
         let decades = if lowest < highest { lowest as i32..=highest as i32 } else { 0..=1 };
         let stride = 1 + decades.clone().count() / 9;
         let (start, end) = (f64::from(*decades.start()), f64::from(*decades.end()));
-        self.draw_panel(
+        self.draw_half(
             &lower,
-            &Panel {
+            &Half {
                 axis: Axis {
                     range: start..end + LEGEND_ROOM * (end - start),
                     ticks: decades.step_by(stride).map(f64::from).collect(),
@@ -112,10 +114,10 @@ impl Drawing for SweepPlot {
 }
 
 impl SweepPlot {
-    fn draw_panel<B: DrawingBackend>(
+    fn draw_half<B: DrawingBackend>(
         &self,
         area: &DrawingArea<B, Shift>,
-        panel: &Panel,
+        half: &Half,
     ) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
         let last = self.cell_sizes.len() - 1;
         let stride = 1 + last / 12;
@@ -130,9 +132,9 @@ impl SweepPlot {
                 title: &self.cell_axis,
                 label: &|step| self.cell_sizes[step as usize].clone(),
             },
-            Side { axis: panel.axis.clone(), title: panel.axis_label, label: panel.tick_label },
+            Side { axis: half.axis.clone(), title: half.axis_label, label: half.tick_label },
         )?;
-        curve(&mut chart, panel.label, panel.colour, true, panel.points)?;
+        curve(&mut chart, half.label, half.colour, true, half.points)?;
         legend(&mut chart)
     }
 }

@@ -16,10 +16,10 @@ const INDEPENDENT_BEAMS: f64 = 25.0;
 /// The part of returns that have nothing to do with the map: the least likelihood of one.
 const OUTLIERS: f64 = 0.05;
 
-/// What a filter is given.
+/// The settings of a filter.
 #[derive(Clone, Debug)]
 pub struct Settings {
-    /// How many particles.
+    /// The number of particles.
     pub particles: usize,
     /// The drift of the odometry, as the filter knows it.
     pub drift: f64,
@@ -48,7 +48,7 @@ pub struct Filter {
 }
 
 impl Filter {
-    /// All particles at one pose with what is seen from there.
+    /// Creates a filter with all particles at one pose and what is seen from there.
     ///
     /// # Errors
     /// What [`ScanMap`] refuses.
@@ -82,13 +82,13 @@ impl Filter {
         self.particles.iter().map(|particle| particle.grid.clone()).collect()
     }
 
-    /// Their weights, the largest being 1.
+    /// Returns the weights, the largest being 1.
     pub fn weights(&self) -> Vec<f64> {
         let largest = self.particles.iter().map(|p| p.log_weight).fold(f64::NEG_INFINITY, f64::max);
         self.particles.iter().map(|particle| exp(particle.log_weight - largest)).collect()
     }
 
-    /// Where the particles are.
+    /// Returns the poses of the particles.
     pub fn poses(&self) -> impl Iterator<Item = Pose> {
         self.particles.iter().map(|particle| particle.pose)
     }
@@ -129,7 +129,7 @@ impl Particle {
         Ok(())
     }
 
-    /// How well the returns fit the map: each as likely as the cell it ends in is occupied.
+    /// Returns how well the returns fit the map: each is as likely as the cell it ends in is occupied.
     fn log_likelihood(&self, readings: &Readings) -> Result<f64, Error> {
         let (mut sum, mut count) = (0.0, 0.0);
         for beam in readings.beams() {

@@ -21,14 +21,14 @@ use mean_information::Error;
 use mean_information::scan::{Pose, Scan, ScanMap};
 use mean_information::sensor::GaussianSensor;
 
-/// What the robot saw, and from where.
+/// The readings of a robot, and the poses they were made from.
 #[derive(Clone, Debug)]
 pub struct Journey {
-    /// Where it was.
+    /// The true poses.
     pub poses: Vec<Pose>,
-    /// Where it believed to be.
+    /// The poses in which it believed to be.
     pub believed: Vec<Pose>,
-    /// What it saw from each pose.
+    /// The readings from each pose.
     pub readings: Vec<Readings>,
 }
 

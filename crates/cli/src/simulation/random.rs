@@ -19,7 +19,7 @@ impl Random {
         Self { state: seed }
     }
 
-    /// 64 random bits.
+    /// Draws 64 random bits.
     pub fn bits(&mut self) -> u64 {
         self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let z = self.state;
@@ -28,19 +28,19 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// Another generator, whose numbers do not depend on how many are yet taken from this one.
+    /// Creates another generator, whose numbers do not depend on how many are yet taken from this one.
     #[must_use]
     pub fn fork(&mut self) -> Self {
         Self::new(self.bits())
     }
 
-    /// Uniform in `[low, high)`, up to the rounding of the sum.
+    /// Draws uniformly from `[low, high)`, up to the rounding of the sum.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         let unit = (self.bits() >> 11) as f64 / (1_u64 << 53) as f64;
         low + (high - low) * unit
     }
 
-    /// Normal, of mean 0 and standard deviation 1.
+    /// Draws from the normal distribution of mean 0 and standard deviation 1.
     pub fn normal(&mut self) -> f64 {
         loop {
             let [x, y] = [self.between(-1.0, 1.0), self.between(-1.0, 1.0)];

@@ -7,11 +7,11 @@ use mean_information::scan::Direction;
 /// A room, and a way through it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Room {
-    /// Its walls and pillars.
+    /// The walls and pillars.
     pub shapes: Vec<Shape>,
-    /// Where the robot goes, from point to point.
+    /// The robot's way, from point to point.
     pub route: Vec<Point>,
-    /// How often it stops to look round, unless told otherwise.
+    /// The number of times it stops to look round, unless told otherwise.
     pub poses: usize,
 }
 
@@ -21,7 +21,7 @@ impl Room {
         self.shapes.iter().filter_map(|shape| shape.distance(from, direction)).reduce(f64::min)
     }
 
-    /// A rectangle, with pillars and boxes against its walls, that is seen from two places in it.
+    /// Creates a rectangle, with pillars and boxes against its walls, that is seen from two places in it.
     pub fn random(random: &mut Random) -> Self {
         let [width, depth] = [random.between(5.0, 9.0), random.between(4.0, 7.0)];
         let mut shapes = vec![Shape::polygon(&[[0.0, 0.0], [width, 0.0], [width, depth], [0.0, depth]])];
@@ -54,7 +54,7 @@ pub enum RoomName {
 }
 
 impl RoomName {
-    /// As the command line calls it.
+    /// Returns its name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Study => "study",

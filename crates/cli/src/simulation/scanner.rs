@@ -8,15 +8,15 @@ use std::f64::consts::TAU;
 /// A range sensor.
 #[derive(Clone, Debug)]
 pub struct Scanner {
-    /// How many beams it has, at equal angles all round, the first straight ahead.
+    /// The number of beams, at equal angles all round, the first straight ahead.
     pub beams: u32,
-    /// How far it sees, in metres.
+    /// The maximum range, in metres.
     pub maximum_range: f64,
     /// The standard deviation of its ranges, in metres.
     pub noise: f64,
 }
 
-/// What a scanner read at one place, wherever that was.
+/// The readings of a scanner at one place, wherever that was.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Readings {
     maximum_range: f64,

@@ -12,9 +12,9 @@ pub enum Shape {
     Walls(Vec<Point>),
     /// A round pillar; from within, a round wall.
     Disc {
-        /// Its centre.
+        /// The centre.
         centre: Point,
-        /// Its radius, in metres.
+        /// The radius, in metres.
         radius: f64,
     },
 }
@@ -55,7 +55,7 @@ impl Seen {
         Self { ahead: x * cos + y * sin, aside: y * cos - x * sin }
     }
 
-    /// Where the ray crosses the wall between two points.
+    /// Returns the distance at which the ray crosses the wall between two points.
     ///
     /// It does if they lie on different sides of it, and a point is on the same side for both walls that end in it: no ray
     /// slips through a corner, and what is ahead is a mean of two numbers, without cancellation.

@@ -5,8 +5,8 @@ use mean_information::Error;
 use mean_information::elementary::sqrt;
 use mean_information::scan::{Direction, Pose};
 
-/// So many poses along a route, at equal distances from its first point to its last, each heading along it; one alone is
-/// at the first point.
+/// Returns `count` poses along a route, at equal distances from its first point to its last, each heading along it;
+/// one alone is at the first point.
 ///
 /// # Errors
 /// A point of the route that is not finite.
@@ -48,8 +48,8 @@ impl Leg {
     }
 }
 
-/// Where a robot that was at `poses` believes to be by its odometry: the first pose is known, and each way from one to
-/// the next is [measured](Motion::measured). Without drift the poses are as they are.
+/// Returns the poses in which a robot that was at `poses` believes to be by its odometry: the first pose is known, and
+/// each way from one to the next is [measured](Motion::measured). Without drift the poses are as they are.
 ///
 /// # Errors
 /// A drift that is negative or not finite.
@@ -104,7 +104,7 @@ impl Motion {
         Self { ahead: measured(self.ahead), aside: measured(self.aside), turn: measured(self.turn) }
     }
 
-    /// Where it leads from a pose.
+    /// Returns the pose to which it leads from a pose.
     ///
     /// # Errors
     /// A place or heading that is not finite.

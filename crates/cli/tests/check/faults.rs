@@ -1,7 +1,7 @@
 //! Ports that answer wrongly: the cause that is named first.
 
-use crate::Test;
-use crate::fixture::Vectors;
+use super::Test;
+use super::fixture::Vectors;
 
 pub(crate) const TESTS: &[Test] = &[
     ("faults_are_named", faults_are_named),

@@ -1,8 +1,8 @@
 //! Files of vectors that make no sense: they are refused with the file, the test, the value and what is allowed, before
 //! any port is started.
 
-use crate::Test;
-use crate::fixture::Vectors;
+use super::Test;
+use super::fixture::Vectors;
 use mean_information_cli::check::Vectors as File;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;

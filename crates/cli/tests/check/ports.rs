@@ -1,6 +1,6 @@
 //! Ports with a fault each: what they answer is wrong, or they break the protocol at the request [`AT`].
 
-use crate::fixture::AS_PORT;
+use super::fixture::AS_PORT;
 use mean_information::Real;
 use mean_information_cli::hex_float;
 use mean_information_cli::port;

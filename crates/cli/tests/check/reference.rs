@@ -1,6 +1,6 @@
 //! The library as a port: right in both formats, and an error in words for whatever is no request.
 
-use crate::Test;
+use super::Test;
 use crate::common::{Folder, meaninfo, read, refusal, stdout, text};
 use mean_information::operations::OPERATIONS;
 use serde_json::{Value, json};

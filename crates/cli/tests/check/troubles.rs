@@ -1,7 +1,7 @@
 //! Ports that break the protocol: each ends in a report that names the request, and the run is carried on.
 
-use crate::Test;
-use crate::fixture::Vectors;
+use super::Test;
+use super::fixture::Vectors;
 use std::path::Path;
 use std::thread;
 use std::time::{Duration, Instant};
@@ -148,7 +148,7 @@ fn what_a_port_leaves_behind_is_ended() {
     let number = vectors.folder.text_path("number");
     let mut command = crate::common::meaninfo();
     command.args(["check", "--vectors"]).arg(vectors.folder.path("")).args(["--timeout", "100", "--"]);
-    command.arg(std::env::current_exe().unwrap()).args([crate::fixture::AS_PORT, "orphan", &number]);
+    command.arg(std::env::current_exe().unwrap()).args([super::fixture::AS_PORT, "orphan", &number]);
     let started = Instant::now();
     let output = command.timeout(Duration::from_secs(120)).output().unwrap();
     assert_eq!(output.status.code(), Some(1), "{output:?}");

@@ -1,8 +1,8 @@
 //! The verdict in all its forms: claims, known failures and what is skipped.
 
-use crate::Test;
+use super::Test;
+use super::fixture::Vectors;
 use crate::common::{Folder, assert_twins, meaninfo, read, text};
-use crate::fixture::Vectors;
 use serde_json::Value;
 use std::fs;
 

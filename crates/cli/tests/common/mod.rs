@@ -103,6 +103,25 @@ pub(crate) fn assert_twins(object: &Value, expected: usize) {
     }
 }
 
+/// The keys of a map's measures, in JSON that says more about the map.
+pub(crate) const MEASURE_KEYS: [&str; 15] = [
+    "width",
+    "height",
+    "resolution_m",
+    "mean_information",
+    "mean_information_hex",
+    "information_bits",
+    "information_bits_hex",
+    "entropy_bits",
+    "entropy_bits_hex",
+    "observed",
+    "unknown",
+    "free",
+    "occupied",
+    "observed_area_m2",
+    "observed_area_m2_hex",
+];
+
 /// The keys of indented JSON whose lines are indented by `depth` spaces, in order.
 pub(crate) fn keys(json: &str, depth: usize) -> Vec<&str> {
     let indent = " ".repeat(depth) + "\"";

@@ -4,8 +4,6 @@
 //! The ports are this program itself, started with the name of a fault (`ports`); hence it has a `main` of its own,
 //! which runs the tests whose names contain one of the arguments, or all.
 
-#[path = "../common/mod.rs"]
-mod common;
 mod faults;
 mod files;
 mod fixture;
@@ -25,7 +23,7 @@ type Test = (&'static str, fn());
 /// Most of them wait most of the time.
 const THREADS: usize = 4;
 
-fn main() -> ExitCode {
+pub(crate) fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     if let [word, fault, rest @ ..] = &arguments[..]
         && word == fixture::AS_PORT

@@ -1,0 +1,64 @@
+//! What causes are made of: the tests that were run, and what some of their failures have in common.
+
+use super::TestFailure;
+use super::judge::Judged;
+use super::vectors::Test;
+
+/// The kind of evidence for a cause.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Answers have the value that a known mistake gives.
+    Trap,
+    /// Tests of one flag fail, others less.
+    Flag,
+    /// The answers themselves.
+    Fact,
+}
+
+impl Kind {
+    /// Returns its name in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Trap => "trap",
+            Self::Flag => "flag",
+            Self::Fact => "fact",
+        }
+    }
+}
+
+/// A test that was run, and how it ended.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Case<'a> {
+    pub(super) test: &'a Test,
+    /// The failure; none if the answer was right.
+    pub(super) failure: Option<&'a TestFailure>,
+    /// The answer, if there was one.
+    pub(super) judged: Option<&'a Judged>,
+}
+
+impl<'a> Case<'a> {
+    /// Returns the wrong answer, if one was given.
+    pub(super) fn wrong_answer(self) -> Option<&'a Judged> {
+        self.judged.filter(|judged| !judged.right)
+    }
+}
+
+/// A cause before it is ranked: which cases it explains.
+pub(super) struct Candidate {
+    pub(super) kind: Kind,
+    pub(super) name: String,
+    pub(super) note: String,
+    /// Indices of cases.
+    pub(super) explained: Vec<usize>,
+    /// The number of answered tests on which it should show.
+    pub(super) tests: usize,
+    /// The failures among tests without the flag, and the number of these tests; for flags only.
+    pub(super) elsewhere: Option<(usize, usize)>,
+    /// The most that the score of a cause can be that is no trap.
+    pub(super) weight: f64,
+}
+
+/// Returns the indices of the cases for which a condition holds.
+pub(super) fn indices(cases: &[Case<'_>], holds: impl Fn(Case<'_>) -> bool) -> Vec<usize> {
+    (0..cases.len()).filter(|&index| holds(cases[index])).collect()
+}

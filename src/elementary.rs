@@ -29,8 +29,7 @@ pub fn ln<T: Real>(x: T) -> T {
     rounded::ln(x)
 }
 
-/// Computes the square root of `x`, correctly rounded (proved: an integer square root and its remainder, as in IEEE
-/// 754).
+/// Computes the square root of `x`, correctly rounded (proved: an integer square root and its remainder, as in IEEE 754).
 ///
 /// Special cases: `±0` at `±0`, `inf` at `inf`, NaN below 0 and at NaN.
 ///

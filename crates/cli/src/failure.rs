@@ -14,7 +14,7 @@ pub enum Failure {
     File {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The fault.
         message: String,
     },
     /// Standard output cannot be written, for another reason than a reader who closed it.
@@ -25,9 +25,9 @@ pub enum Failure {
     Vectors(String),
     /// A port cannot be talked to.
     Port {
-        /// How it is started.
+        /// The command that starts it.
         command: String,
-        /// What is wrong with it.
+        /// The fault.
         message: String,
     },
     /// A picture cannot be drawn.
@@ -72,14 +72,14 @@ impl From<Error> for Failure {
 }
 
 impl From<mean_information::Error> for Failure {
-    /// The library refuses what it was asked for, not a file.
+    /// Wraps what the library refuses of an argument, not of a file.
     fn from(error: mean_information::Error) -> Self {
         Self::Usage(error.to_string())
     }
 }
 
 impl From<clap::Error> for Failure {
-    /// The first paragraphs of clap's message, in one line, without its usage and its advice to ask for help.
+    /// Returns the first paragraphs of clap's message, in one line, without its usage and its advice to ask for help.
     fn from(error: clap::Error) -> Self {
         let rendered = error.to_string();
         let lines =

@@ -4,7 +4,7 @@ use crate::metres::positive;
 use clap::Args;
 use mean_information_files::{ArrayEncoding, Mode, Options, Semantics, Warning};
 
-/// How to read map files.
+/// The options for reading map files.
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Reading")]
 pub struct Reading {

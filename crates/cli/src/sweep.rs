@@ -20,9 +20,9 @@ pub struct Sweep {
 /// The measures at one cell size.
 #[derive(Debug)]
 pub struct Step {
-    /// How many cells of the map make the side of one cell.
+    /// The number of cells of the map along the side of one cell.
     pub k: usize,
-    /// Of the pooled map.
+    /// The measures of the pooled map.
     pub measures: Measures,
 }
 
@@ -49,7 +49,7 @@ impl Sweep {
         Ok(Self { name, resolution: map.resolution, steps, warnings })
     }
 
-    /// The side of a cell at a step, in metres.
+    /// Returns the side of a cell at a step, in metres.
     pub fn cell_size(&self, step: &Step) -> Option<f64> {
         self.resolution.map(|side| side * step.k as f64)
     }

@@ -7,11 +7,11 @@ use std::path::PathBuf;
 /// A map read from a file.
 #[derive(Clone, Debug)]
 pub struct Map<C = Cells> {
-    /// Its cells.
+    /// The cells of the map.
     pub cells: C,
     /// The side of a cell in metres; `None` if the file does not say.
     pub resolution: Option<f64>,
-    /// What the reader noticed that makes the map mean less than it seems.
+    /// Findings of the reader that make the map mean less than it seems.
     pub warnings: Vec<Warning>,
     /// Every file it was read from, so that no output overwrites one.
     pub files: Vec<PathBuf>,

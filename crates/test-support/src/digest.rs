@@ -54,7 +54,7 @@ fn next(state: &mut u64) -> u64 {
     *state
 }
 
-/// Both digests.
+/// Computes both digests.
 pub fn digests() -> [u64; 2] {
     [results(), integrals()]
 }

@@ -2,7 +2,7 @@
 
 use std::hint::black_box;
 
-/// The least processor time of a call, in seconds, in about `seconds` of calls, at least five.
+/// Measures the least processor time of a call, in seconds, in about `seconds` of calls, at least five.
 pub fn least_time<T>(seconds: f64, call: impl Fn() -> T) -> f64 {
     // In runs of a millisecond or more, so that the timer takes no part.
     let run = |calls: u32| {

@@ -9,7 +9,7 @@ use std::fmt::Write;
 const OTHER: &str = "port";
 
 impl Check {
-    /// The whole verdict as JUnit XML.
+    /// Writes the whole verdict as JUnit XML.
     pub fn junit(&self) -> String {
         let totals = self.totals();
         let mut xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n".to_owned();

@@ -97,7 +97,7 @@ pub enum Want {
     },
     /// The error `domain`.
     Domain,
-    /// This count.
+    /// The count.
     Count(u64),
 }
 

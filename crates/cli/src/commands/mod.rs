@@ -48,7 +48,7 @@ pub enum Command {
     /// The mean information of a map against its resolution, by averaging cells 2 x 2, 4 x 4, ...; what lies beyond the
     /// map's edge is unknown.
     Sweep(sweep::Arguments),
-    /// What the mean information of one scan of a circular room tends to as cells shrink.
+    /// The limit of the mean information of one scan of a circular room as cells shrink.
     Limit(limit::Arguments),
     /// The mean information of grids of a circular room against the size of their cells: how they tend to the limit, and the
     /// proved bound on how far they are from it.

@@ -16,7 +16,7 @@ pub enum Number {
 }
 
 impl Number {
-    /// The number with its precision.
+    /// Keeps a number with its precision.
     pub fn new<T: Real>(x: T) -> Self {
         if T::PRECISION == f32::PRECISION {
             Self::Single(f32::nearest(x.widen()))
@@ -31,7 +31,7 @@ impl Number {
         if f64::from(x as f32) == x { Self::Single(x as f32) } else { Self::Double(x) }
     }
 
-    /// The same value in double precision, exactly.
+    /// Returns the same value in double precision, exactly.
     pub fn widen(self) -> f64 {
         match self {
             Self::Single(x) => x.widen(),
@@ -39,7 +39,7 @@ impl Number {
         }
     }
 
-    /// The same value as a hexadecimal float.
+    /// Writes the same value as a hexadecimal float.
     pub fn hex(self) -> String {
         match self {
             Self::Single(x) => hex_float::format(x),

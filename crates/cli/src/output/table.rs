@@ -38,7 +38,7 @@ fn aligned<const N: usize>(
     table.trim_fmt() + "\n"
 }
 
-/// The name of a file without control characters, a long one in several lines, each of which ends with a folder.
+/// Returns the name of a file without control characters, a long one in several lines, each of which ends with a folder.
 pub fn wrapped(name: &str) -> String {
     let mut lines = String::new();
     let mut width = 0;
@@ -54,7 +54,7 @@ pub fn wrapped(name: &str) -> String {
     lines
 }
 
-/// The text in lines of about so many characters.
+/// Folds a text into lines of about `width` characters.
 pub fn folded(text: &str, width: usize) -> String {
     let mut lines = String::new();
     let mut length = 0;
@@ -71,7 +71,7 @@ pub fn folded(text: &str, width: usize) -> String {
     lines
 }
 
-/// The table with what is to be said of each map below it, each in a line.
+/// Appends to a table what is to be said of each map, each in a line.
 pub fn with_notes<'a>(table: String, notes: impl IntoIterator<Item = (&'a str, &'a str)>) -> String {
     notes.into_iter().fold(table, |text, (map, note)| text + &one_line(&format!("{map}: {note}")) + "\n")
 }

@@ -150,7 +150,7 @@ impl Paper {
         self.claims.iter().all(|claim| claim.verdict != Verdict::Fail)
     }
 
-    /// The page: all figures and claims in one file.
+    /// Writes the page: all figures and claims in one file.
     pub fn page(&self) -> String {
         page::page(self)
     }

@@ -77,7 +77,7 @@ impl MapAxis {
 }
 
 impl HeatMap {
-    /// The heat map of `map`.
+    /// Colours the cells of `map`.
     pub fn new(map: &Map) -> Self {
         with_grid!(&map.cells, grid => Self::of_grid(grid, map.resolution))
     }
@@ -104,7 +104,7 @@ impl HeatMap {
         }
     }
 
-    /// The picture, under two lines of title.
+    /// Draws the picture, under two lines of title.
     ///
     /// # Errors
     /// None is known, but for a map without cells.

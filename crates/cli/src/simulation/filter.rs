@@ -61,7 +61,7 @@ impl Filter {
         Ok(Self { settings, particles, random })
     }
 
-    /// The robot has moved, by its odometry, and looked round.
+    /// Moves the particles by the robot's odometry, and weighs them by its scan.
     ///
     /// # Errors
     /// What [`ScanMap`] refuses.
@@ -77,7 +77,7 @@ impl Filter {
         Ok(())
     }
 
-    /// The particles' maps.
+    /// Returns the particles' maps.
     pub fn maps(&self) -> Vec<Grid<Probability<f64>>> {
         self.particles.iter().map(|particle| particle.grid.clone()).collect()
     }

@@ -53,7 +53,7 @@ impl Journey {
         Ok(Self { poses, believed, readings })
     }
 
-    /// The scans at the believed poses.
+    /// Returns the scans at the believed poses.
     ///
     /// # Errors
     /// [`Readings::at`].

@@ -14,7 +14,7 @@ pub struct Random {
 }
 
 impl Random {
-    /// The generator of a seed.
+    /// Creates the generator of a seed.
     pub fn new(seed: u64) -> Self {
         Self { state: seed }
     }

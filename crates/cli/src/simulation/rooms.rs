@@ -16,7 +16,7 @@ pub struct Room {
 }
 
 impl Room {
-    /// The distance to the first wall or pillar along a ray, in metres; `None` if there is none.
+    /// Returns the distance to the first wall or pillar along a ray, in metres; `None` if there is none.
     pub fn range(&self, from: Point, direction: Direction) -> Option<f64> {
         self.shapes.iter().filter_map(|shape| shape.distance(from, direction)).reduce(f64::min)
     }
@@ -63,7 +63,7 @@ impl RoomName {
         }
     }
 
-    /// The room itself.
+    /// Returns the room itself.
     pub fn room(self) -> Room {
         match self {
             Self::Study => study(),

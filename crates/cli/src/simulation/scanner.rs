@@ -47,7 +47,7 @@ impl Scanner {
 }
 
 impl Readings {
-    /// The readings as a scan from `pose`, which need not be where they were taken.
+    /// Returns the readings as a scan from `pose`, which need not be where they were taken.
     ///
     /// # Errors
     /// [`Scan::new`]: a maximum range that is not positive and finite, or no beam left.
@@ -55,7 +55,7 @@ impl Readings {
         Scan::new(pose, self.maximum_range, self.beams.clone())
     }
 
-    /// The beams.
+    /// Returns the beams.
     pub fn beams(&self) -> &[Beam<f64>] {
         &self.beams
     }

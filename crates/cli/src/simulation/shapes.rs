@@ -20,12 +20,12 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// The polygon with these corners.
+    /// Creates the polygon with these corners.
     pub fn polygon(corners: &[Point]) -> Self {
         Self::Walls(corners.iter().chain(corners.first()).copied().collect())
     }
 
-    /// The distance along a ray to this shape, in metres; `None` if the ray misses it.
+    /// Returns the distance along a ray to this shape, in metres; `None` if the ray misses it.
     pub fn distance(&self, from: Point, direction: Direction) -> Option<f64> {
         match self {
             Self::Walls(points) => {

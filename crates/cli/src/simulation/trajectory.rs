@@ -78,7 +78,7 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// The way between two poses.
+    /// Returns the way between two poses.
     ///
     /// # Errors
     /// Never for poses, whose numbers are finite.
@@ -93,7 +93,7 @@ impl Motion {
         })
     }
 
-    /// The way as odometry measures it.
+    /// Returns the way as odometry measures it.
     ///
     /// On `d` metres, the errors ahead and aside are normal with standard deviation `drift √d` metres, and that of the
     /// turn with `drift √d` radians: a random walk, which adds up by composing the poses.

@@ -84,7 +84,7 @@ pub(super) struct Header {
     pub element: Element,
     pub big_endian: bool,
     pub fortran_order: bool,
-    /// How many in each dimension.
+    /// The number of items in each dimension.
     pub shape: Vec<u64>,
     /// The bytes before the data.
     pub length: u64,

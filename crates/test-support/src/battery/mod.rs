@@ -41,12 +41,12 @@ pub fn cases() -> Vec<Case> {
 }
 
 impl Case {
-    /// `|value - truth|`, to 16 digits.
+    /// Returns `|value - truth|`, to 16 digits.
     pub fn error(&self, value: f64) -> f64 {
         (value - self.value[0] - self.value[1]).abs()
     }
 
-    /// The parameters of the family.
+    /// Returns the parameters of the family.
     pub fn parameters(&self) -> &[f64] {
         &self.parameters
     }

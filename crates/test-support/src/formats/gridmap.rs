@@ -9,7 +9,7 @@ use std::io::Write;
 pub struct GridMap {
     /// The name of the object.
     pub name: &'static [u8],
-    /// Its version.
+    /// The version.
     pub version: u8,
     /// The bits of a cell.
     pub bits: u8,
@@ -19,7 +19,7 @@ pub struct GridMap {
     pub place: [f32; 5],
     /// The cells, the lowest row first.
     pub cells: Vec<u8>,
-    /// What follows the cells: options and the end mark.
+    /// The bytes after the cells: options and the end mark.
     pub tail: Vec<u8>,
 }
 

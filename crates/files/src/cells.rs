@@ -20,10 +20,10 @@ pub enum Cells {
     LogOdds64(Grid<LogOdds<f64>>),
 }
 
-/// What is read of a map to measure it: its cells, or how often each value occurs.
+/// The contents of a map that its measures need: its cells, or how often each value occurs.
 #[derive(Clone, Debug)]
 pub enum Contents {
-    /// Its cells.
+    /// The cells.
     Cells(Cells),
     /// The values of an image.
     Counted(Counted),
@@ -44,7 +44,7 @@ pub enum Counted {
     Probability(Counts<Probability<f64>>),
 }
 
-/// How often each value occurs in a map whose cells were counted and not kept.
+/// The number of times that each value occurs in a map whose cells were counted and not kept.
 #[derive(Clone, Debug)]
 pub struct Counts<E: Encoding> {
     /// Columns.

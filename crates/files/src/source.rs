@@ -27,9 +27,9 @@ pub trait Source {
 /// A file that was opened.
 #[derive(Debug)]
 pub struct Opened<I> {
-    /// Its bytes, from the beginning.
+    /// The bytes, from the beginning.
     pub input: I,
-    /// How many there are.
+    /// The number of bytes.
     pub length: u64,
 }
 

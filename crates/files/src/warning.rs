@@ -6,7 +6,7 @@ use std::fmt;
 /// The grey level, of 255, that map savers write for unknown.
 pub(crate) const SAVED_UNKNOWN: u8 = 205;
 
-/// What a reader noticed that makes a map mean less than it seems. It displays as a sentence; what to do about it is
+/// A sign, noticed by a reader, that a map means less than it seems. It displays as a sentence; what to do about it is
 /// added by who knows how options are given.
 ///
 /// ```
@@ -20,29 +20,29 @@ pub(crate) const SAVED_UNKNOWN: u8 = 205;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Warning {
-    /// In raw mode, cells outside 0 to 100 that are not unknown are read as unknown.
+    /// Cells outside 0 to 100 that are not unknown are read as unknown, in raw mode.
     OutOfRangeReadAsUnknown {
-        /// How many cells.
+        /// The number of cells.
         count: u64,
     },
     /// Cells of the grey that map savers write for unknown, 205 of 255, are read as something else.
     SavedUnknownReadAs {
         /// The grey, of the image's own depth.
         grey: u16,
-        /// What it is read as.
+        /// The percentage that it is read as.
         percent: i8,
-        /// How many cells.
+        /// The number of cells.
         count: u64,
         /// The mode that it is read in.
         mode: Mode,
         /// The `free_thresh` that makes it free, where a lower one would keep it unknown.
         free_thresh: Option<f64>,
     },
-    /// In probability mode, cells of a grey that often means unknown are observed.
+    /// Cells of a grey that often means unknown are observed, in probability mode.
     OftenUnknownObserved {
         /// The grey, of the image's own depth.
         grey: u16,
-        /// How many cells.
+        /// The number of cells.
         count: u64,
     },
     /// nav2's loader may take the levels of an image of 16 bits for others by 1 of 255.
@@ -61,7 +61,7 @@ pub enum Warning {
     PaletteIndices,
     /// Bytes 127 and 128 of an MRPT map before version 3 are read as unknown, as MRPT does.
     HalvesReadAsUnknown {
-        /// How many cells.
+        /// The number of cells.
         count: u64,
         /// The version of the map.
         version: u8,

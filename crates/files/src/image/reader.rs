@@ -37,7 +37,7 @@ impl<R: BufRead + Seek> Image<R> {
         }
     }
 
-    /// Returns what the pieces hold.
+    /// Returns the layout of the pieces.
     pub(crate) fn layout(&self) -> Layout {
         match self {
             Self::Pgm(pgm) => pgm.layout(),

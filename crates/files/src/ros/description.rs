@@ -10,7 +10,7 @@ const MOST_BYTES: u64 = 64 << 10;
 /// The keys that are read; the last is optional.
 const KEYS: [&str; 7] = ["image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh", "mode"];
 
-/// What a yaml file says of a map.
+/// The description of a map by its yaml file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Description {
     /// The image, relative to the folder of the yaml file or absolute.
@@ -19,13 +19,13 @@ pub struct Description {
     pub resolution: f64,
     /// The place of the lower left corner: x and y in metres, yaw in radians.
     pub origin: [f64; 3],
-    /// Whether white is occupied.
+    /// True if white is occupied.
     pub negate: bool,
     /// The occupancy above which a cell is occupied.
     pub occupied_thresh: f64,
     /// The occupancy below which a cell is free; less than `occupied_thresh`.
     pub free_thresh: f64,
-    /// How grey levels are meant; trinary if the file does not say.
+    /// The meaning of grey levels; trinary if the file does not say.
     pub mode: Mode,
 }
 

@@ -53,10 +53,12 @@ fn the_modules_of_the_library_depend_on_those_above_them() {
 }
 
 #[test]
-fn the_modules_of_the_command_depend_on_those_above_them() {
-    let table = head(&read("crates/cli/src/lib.rs"));
-    let name = |row: &Vec<&str>| row[0].trim_matches(['[', ']', '`']).to_lowercase();
-    one_way("crates/cli/src", &rows(&table).iter().map(name).collect::<Vec<_>>());
+fn the_modules_of_files_and_of_the_command_depend_on_those_above_them() {
+    for folder in ["crates/files/src", "crates/cli/src"] {
+        let table = head(&read(format!("{folder}/lib.rs")));
+        let name = |row: &Vec<&str>| row[0].trim_matches(['[', ']', '`']).to_lowercase();
+        one_way(folder, &rows(&table).iter().map(name).collect::<Vec<_>>());
+    }
 }
 
 /// Every module of `folder` is in `order`, and uses none that stands after it.

@@ -89,6 +89,11 @@ fn refusals_name_the_options_that_mend_them() {
     assert!(line.ends_with("cells, more than the limit of 9223372036854775807\n"), "{line}");
 }
 
+/// The arguments as slices.
+fn borrowed(arguments: &[String]) -> Vec<&str> {
+    arguments.iter().map(String::as_str).collect()
+}
+
 /// Lengths are written alike wherever they are asked for, and refused in the same words.
 #[test]
 fn range_and_resolution_take_the_same_numbers() {
@@ -99,9 +104,6 @@ fn range_and_resolution_take_the_same_numbers() {
     let range_of_grids = |text: &str| {
         ["converge", "--sigma", "0.25", "--resolutions", "0.5", "--range", text].map(str::to_owned).to_vec()
     };
-    fn borrowed(arguments: &[String]) -> Vec<&str> {
-        arguments.iter().map(String::as_str).collect()
-    }
     for text in ["0.75", "75e-2", "0x1.8p-1", "0X3P-2"] {
         for arguments in [resolution(text), range(text), range_of_grids(text)] {
             let json = stdout(&[&borrowed(&arguments)[..], &["--format", "json"]].concat());

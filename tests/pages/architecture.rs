@@ -53,10 +53,12 @@ fn the_modules_of_the_library_depend_on_those_above_them() {
 }
 
 #[test]
-fn the_modules_of_the_command_depend_on_those_above_them() {
-    let table = head(&read("crates/cli/src/lib.rs"));
-    let name = |row: &Vec<&str>| row[0].trim_matches(['[', ']', '`']).to_lowercase();
-    one_way("crates/cli/src", &rows(&table).iter().map(name).collect::<Vec<_>>());
+fn the_modules_of_files_and_of_the_command_depend_on_those_above_them() {
+    for folder in ["crates/files/src", "crates/cli/src"] {
+        let table = head(&read(format!("{folder}/lib.rs")));
+        let name = |row: &Vec<&str>| row[0].trim_matches(['[', ']', '`']).to_lowercase();
+        one_way(folder, &rows(&table).iter().map(name).collect::<Vec<_>>());
+    }
 }
 
 /// Every module of `folder` is in `order`, and uses none that stands after it.
@@ -104,7 +106,7 @@ pub(crate) fn without_tests(text: &str) -> String {
 /// The modules at the root of the crate that the code of a module uses, by `crate::` or by enough of `super::`.
 fn used<'a>(code: &'a str, own: &[&str]) -> Vec<&'a str> {
     let begins = |&(at, _): &(usize, &str)| {
-        !code[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_') && !code[..at].ends_with("super::")
+        !code[..at].ends_with(|c: char| c.is_alphanumeric() || "_$".contains(c)) && !code[..at].ends_with("super::")
     };
     let starts = code.match_indices("crate::").chain(code.match_indices("super::")).filter(begins);
     let from_root = |path: Vec<&'a str>| {

@@ -73,7 +73,7 @@ impl Package {
         let starts = |word: &'static str| {
             code.match_indices(word).filter(|&(at, _)| {
                 let before = &code[..at];
-                let is_name = before.ends_with(|c: char| c.is_alphanumeric() || c == '_' || c == ':');
+                let is_name = before.ends_with(|c: char| c.is_alphanumeric() || "_:$".contains(c));
                 let line = &before[before.rfind('\n').map_or(0, |end| end + 1)..];
                 !is_name && !line.trim_start().starts_with("pub")
             })

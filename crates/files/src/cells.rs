@@ -20,7 +20,7 @@ pub enum Cells {
     LogOdds64(Grid<LogOdds<f64>>),
 }
 
-/// The content of a map as it was read: its cells, or the number of cells of each value.
+/// The contents of a map that its measures need: its cells, or how often each value occurs.
 #[derive(Clone, Debug)]
 pub enum Contents {
     /// The cells.
@@ -44,7 +44,7 @@ pub enum Counted {
     Probability(Counts<Probability<f64>>),
 }
 
-/// The number of cells of each value, in a map whose cells were counted and not kept.
+/// The number of times that each value occurs in a map whose cells were counted and not kept.
 #[derive(Clone, Debug)]
 pub struct Counts<E: Encoding> {
     /// Columns.

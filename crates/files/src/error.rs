@@ -22,6 +22,7 @@ use std::path::{Path, PathBuf};
 /// assert_eq!((refused.value(), refused.allowed()), (Some("-0.05"), Some("a positive number of metres")));
 /// assert_eq!(refused.to_string(), "resolution is -0.05, allowed is a positive number of metres");
 /// ```
+#[derive(Debug)]
 pub struct Error(Box<Details>);
 
 #[derive(Debug)]
@@ -194,12 +195,6 @@ impl Error {
     /// Returns what is wrong, without the file and as it is: names and values may hold control characters.
     pub fn message(&self) -> &str {
         &self.0.message
-    }
-}
-
-impl fmt::Debug for Error {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.fmt(f)
     }
 }
 

@@ -7,13 +7,13 @@ use std::path::PathBuf;
 /// A map read from a file.
 #[derive(Clone, Debug)]
 pub struct Map<C = Cells> {
-    /// The cells of the map.
+    /// The cells.
     pub cells: C,
     /// The side of a cell in metres; `None` if the file does not say.
     pub resolution: Option<f64>,
-    /// Findings of the reader that make the map mean less than it seems.
+    /// The signs that the map means less than it seems.
     pub warnings: Vec<Warning>,
-    /// Every file it was read from, so that no output overwrites one.
+    /// The files it was read from, so that no output overwrites one.
     pub files: Vec<PathBuf>,
 }
 

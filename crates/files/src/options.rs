@@ -8,7 +8,7 @@ pub const MAX_CELLS: u64 = 1 << 28;
 /// no memory, but time, and a small file can hold a thousand times as many pixels as bytes.
 pub const MAX_COUNTED: u64 = 1 << 34;
 
-/// The loader by whose rules grey levels become percentages.
+/// The loader whose rules turn grey levels into percentages.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 pub enum Semantics {
@@ -33,7 +33,7 @@ pub enum Mode {
     Probability,
 }
 
-/// The encoding of the numbers of an `.npy` array.
+/// The meaning of the numbers of an `.npy` array.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 pub enum ArrayEncoding {
@@ -47,16 +47,16 @@ pub enum ArrayEncoding {
     Mrpt,
 }
 
-/// The options of the readers. By default nav2's rules hold, and everything else is as the file says.
+/// The options of the readers. The default is nav2's rules, and everything else as the file says.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
-    /// The loader by whose rules the grey levels of a ROS map become percentages.
+    /// The loader whose rules turn the grey levels of a ROS map into percentages.
     pub semantics: Semantics,
     /// The meaning of the grey levels of a ROS map; the file's own mode if absent.
     pub mode: Option<Mode>,
-    /// The grey level (of the image's own depth) that means unknown in [`Mode::Probability`].
+    /// The grey level, of the image's own depth, that means unknown in [`Mode::Probability`].
     pub unknown: Option<u16>,
-    /// The encoding of an `.npy` array; if absent, floats are probabilities and int8 are percentages.
+    /// The meaning of the numbers of an `.npy` array; if absent, floats are probabilities and int8 are percentages.
     pub encoding: Option<ArrayEncoding>,
     /// The side of a cell of an `.npy` array in metres.
     pub resolution: Option<f64>,

@@ -4,7 +4,7 @@ use crate::error::{Error, ErrorKind};
 use mean_information::map::Geometry;
 use std::io::{self, Read};
 
-/// How many bytes are read at a time.
+/// The bytes that are read at a time.
 pub(crate) const CHUNK: usize = 1 << 16;
 
 /// Columns and rows, known to be within the limit on cells.

@@ -6,7 +6,7 @@ use std::fmt;
 /// The grey level, of 255, that map savers write for unknown.
 pub(crate) const SAVED_UNKNOWN: u8 = 205;
 
-/// A finding of a reader that makes a map mean less than it seems. It displays as a sentence; what to do about it is
+/// A sign, noticed by a reader, that a map means less than it seems. It displays as a sentence; what to do about it is
 /// added by who knows how options are given.
 ///
 /// ```
@@ -29,7 +29,7 @@ pub enum Warning {
     SavedUnknownReadAs {
         /// The grey, of the image's own depth.
         grey: u16,
-        /// The meaning that it is read as.
+        /// The percentage that it is read as.
         percent: i8,
         /// The number of cells.
         count: u64,

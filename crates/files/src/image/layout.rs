@@ -35,7 +35,7 @@ impl Channels {
     }
 }
 
-/// What a piece of an image holds.
+/// The layout of the pixels in the pieces of an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Layout {
     /// Columns and rows.
@@ -81,7 +81,7 @@ impl Layout {
     }
 }
 
-/// What becomes of a PNG's colours.
+/// The treatment of a PNG's colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Colours {
     /// As they are meant: palettes are looked up, transparent colours become alpha.
@@ -95,8 +95,8 @@ pub(crate) enum Colours {
 /// The most pixels of an image, by how it is stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct MaxPixels {
-    /// Of a PGM, which is at least as long as it has pixels.
+    /// The most of a PGM, which is at least as long as it has pixels.
     pub(crate) pgm: u64,
-    /// Of a PNG, which is compressed.
+    /// The most of a PNG, which is compressed.
     pub(crate) png: u64,
 }

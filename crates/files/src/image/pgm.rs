@@ -31,7 +31,7 @@ impl<R: BufRead> Pgm<R> {
         Ok(Self { input, plain: magic == *b"P2", layout })
     }
 
-    /// Returns what the pieces hold.
+    /// Returns the layout of the pieces.
     pub(super) fn layout(&self) -> Layout {
         self.layout
     }

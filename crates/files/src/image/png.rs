@@ -20,7 +20,7 @@ pub(crate) struct Png<R: BufRead + Seek> {
     input: R,
     transformations: Transformations,
     layout: Layout,
-    /// Whether samples of 16 bits are cut to their high byte.
+    /// True if samples of 16 bits are cut to their high byte.
     cut: bool,
     /// The bits of a palette index, if the indices themselves are wanted.
     index_bits: Option<u8>,

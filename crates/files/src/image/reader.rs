@@ -27,7 +27,7 @@ impl<R: BufRead + Seek> Image<R> {
             [0x89, b'P', b'N', b'G', ..] => {
                 Png::open(input, colours, most.png).map(|png| Self::Png(Box::new(png)))
             }
-            [first @ ..] => {
+            first => {
                 let first = first[..first.len().min(4)].escape_ascii().to_string();
                 Err(Error::new(ErrorKind::Unsupported, "is no image this program reads")
                     .at(Place::Byte(0))
@@ -37,7 +37,7 @@ impl<R: BufRead + Seek> Image<R> {
         }
     }
 
-    /// Returns what the pieces hold.
+    /// Returns the layout of the pieces.
     pub(crate) fn layout(&self) -> Layout {
         match self {
             Self::Pgm(pgm) => pgm.layout(),

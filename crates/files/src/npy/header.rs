@@ -9,7 +9,7 @@ use std::io::Read;
 /// The most bytes of a header; numpy itself reads headers up to 10 000.
 const MOST_BYTES: u32 = 64 << 10;
 
-/// What an array may hold.
+/// The elements that an array may hold.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Allowed {
     words: &'static str,
@@ -17,10 +17,10 @@ pub(super) struct Allowed {
     integers: bool,
 }
 
-/// What maps may hold.
+/// The elements that maps may hold.
 pub(super) const MAPS: Allowed =
     Allowed { words: "are float32 (f4), float64 (f8) and int8 (i1)", integers: false };
-/// What weights may hold.
+/// The elements that weights may hold.
 pub(super) const WEIGHTS: Allowed =
     Allowed { words: "for weights are float32 (f4), float64 (f8) and integers", integers: true };
 
@@ -78,13 +78,13 @@ impl Element {
     }
 }
 
-/// What a header says.
+/// The contents of a header.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Header {
     pub element: Element,
     pub big_endian: bool,
     pub fortran_order: bool,
-    /// The number of items in each dimension.
+    /// The number of elements in each dimension.
     pub shape: Vec<u64>,
     /// The bytes before the data.
     pub length: u64,

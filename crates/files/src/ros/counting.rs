@@ -11,7 +11,7 @@ use std::ops::Range;
 /// Pixels are counted in so many lanes in turn: equal neighbours would wait for each other.
 const LANES: usize = 4;
 
-/// How often each index of a [`PixelTable`]'s tables occurs.
+/// The number of pixels at each index of a [`PixelTable`]'s tables occurs.
 enum IndexCounts {
     /// Pixels that are bytes, and their own index.
     Bytes(Box<Histogram>),
@@ -58,7 +58,7 @@ impl IndexCounts {
     }
 }
 
-/// How often the cells of an image, and what is watched, occur. A cell may be listed more than once.
+/// The number of times that each cell of an image, and each suspect grey, occurs. A cell may be listed more than once.
 type CellCounts<C> = (Vec<(C, u64)>, Vec<(SuspectGrey, u64)>);
 
 /// IndexCounts the cells of an image.

@@ -10,7 +10,7 @@ const MOST_BYTES: u64 = 64 << 10;
 /// The keys that are read; the last is optional.
 const KEYS: [&str; 7] = ["image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh", "mode"];
 
-/// The contents of a map's yaml file.
+/// The description of a map by its yaml file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Description {
     /// The image, relative to the folder of the yaml file or absolute.

@@ -1,6 +1,7 @@
 //! The properties that fuzzing tries to break: each takes any bytes and panics if one does not hold.
 //!
 //! `fuzz/` has a target for each; `cargo test` replays the committed seeds on them, on stable.
+#![allow(clippy::missing_panics_doc, reason = "a property panics if it does not hold")]
 
 mod builders;
 #[cfg(feature = "formats")]

@@ -50,6 +50,11 @@ pub struct Cell<T> {
 
 impl<T: Real> Cell<T> {
     /// Creates an unobserved cell: `p = 1/2`, 1 bit of entropy, no information.
+    ///
+    /// ```
+    /// let cell = mean_information::cell::Cell::<f64>::unknown();
+    /// assert_eq!((cell.entropy(), cell.information()), (1.0, 0.0));
+    /// ```
     pub fn unknown() -> Self {
         Self { state: State::Unknown, entropy: T::one(), information: T::zero() }
     }
@@ -58,6 +63,13 @@ impl<T: Real> Cell<T> {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if `p` is NaN or outside `[0, 1]`.
+    ///
+    /// ```
+    /// use mean_information::cell::Cell;
+    /// assert_eq!(Cell::from_occupancy(0.3_f64)?.information(), 0.11870910076930739534646);
+    /// assert!(Cell::from_occupancy(1.5_f64).is_err());
+    /// # Ok::<(), mean_information::Error>(())
+    /// ```
     pub fn from_occupancy(p: T) -> Result<Self, Error> {
         if !in_unit_interval(p) {
             return Err(Error::out_of_range("occupancy", p.widen(), "0 to 1"));
@@ -100,12 +112,12 @@ impl<T: Real> Cell<T> {
         self.state
     }
 
-    /// Returns the entropy `H`, in bits.
+    /// Returns the entropy `H` in bits, correctly rounded (Eq. 1).
     pub fn entropy(&self) -> T {
         self.entropy
     }
 
-    /// Returns the information `I = 1 - H`, in bits.
+    /// Returns the information `I = 1 - H` in bits, correctly rounded (Eq. 3).
     pub fn information(&self) -> T {
         self.information
     }

@@ -29,7 +29,7 @@ pub fn ln<T: Real>(x: T) -> T {
     rounded::ln(x)
 }
 
-/// Computes the square root of `x`, correctly rounded (proved: an integer square root and its remainder, as in IEEE 754).
+/// Computes the square root of `x`, correctly rounded as in IEEE 754 (proved: an integer root and its remainder).
 ///
 /// Special cases: `±0` at `±0`, `inf` at `inf`, NaN below 0 and at NaN.
 ///
@@ -54,11 +54,12 @@ pub fn sqrt<T: Real>(x: T) -> T {
 
 /// Computes `e^x - 1`, within 2 ulp (proved: [`quadrature`](crate::book::quadrature)).
 ///
-/// Below a quarter `x + x^2/2 (1 + x/3 (1 + x/4 (...)))`; from there on the error of `e^x` is no more than this.
+/// Sums `x + x^2/2 (1 + x/3 (1 + x/4 (...)))` for `|x|` below a quarter; from there on `exp(x) - 1` has that bound, too.
 pub(crate) fn exp_m1<T: Real>(x: T) -> T {
     if x.abs() >= T::HALF * T::HALF || x.is_nan() {
         return exp(x) - T::one();
     }
+    // The first term left out is x^14 / 14!, below 2^-62 x.
     let series = (3..=13_u32).rev().fold(T::one(), |sum, k| T::one() + x / T::from_parts(k.into(), 0) * sum);
     x + T::HALF * x * x * series
 }

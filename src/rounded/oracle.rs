@@ -23,7 +23,7 @@ impl Oracle {
         Self { lo: value.clone(), hi: value }
     }
 
-    /// `m 2^e`, a multiple of `2^-SCALE`.
+    /// Creates `m 2^e`, a multiple of `2^-SCALE`.
     pub(crate) fn dyadic(m: u64, e: i32) -> Self {
         Self::exact(BigInt::from(m) << (SCALE as i32 + e))
     }
@@ -52,12 +52,12 @@ impl Oracle {
         Self { lo: (&self.lo << SCALE) / &other.hi, hi: (&self.hi << SCALE) / &other.lo + 1 }
     }
 
-    /// `self 2^-k`.
+    /// Returns `self 2^-k`.
     fn halved(&self, k: usize) -> Self {
         Self { lo: &self.lo >> k, hi: (&self.hi >> k) + 1 }
     }
 
-    /// `ln w = 2 artanh t`, `t = (w-1) / (w+1)`, for `w` in `[1, 2]`: `t <= 1/3`.
+    /// Computes `ln w = 2 artanh t`, `t = (w-1) / (w+1)`, for `w` in `[1, 2]`: `t <= 1/3`.
     fn ln(&self) -> Self {
         let t = self.minus(&Self::integer(1)).over(&self.plus(&Self::integer(1)));
         let square = t.times(&t);
@@ -74,14 +74,14 @@ impl Oracle {
         sum
     }
 
-    /// `-ln w` for `w` in `(0, 1]`.
+    /// Computes `-ln w` for `w` in `(0, 1]`.
     pub(crate) fn minus_ln(&self) -> Self {
         let k = SCALE + 1 - self.lo.bits() as usize;
         let scaled = Self { lo: &self.lo << k, hi: &self.hi << k };
         Self::integer(k as u64).times(&LN_2).minus(&scaled.ln())
     }
 
-    /// `e^-l`.
+    /// Computes `e^-l`.
     pub(crate) fn exp_neg(&self) -> Self {
         let k = &self.lo / &LN_2.hi;
         let rest = self.minus(&Self { lo: &k * &LN_2.lo, hi: &k * &LN_2.hi });
@@ -100,7 +100,7 @@ impl Oracle {
     }
 }
 
-/// `H(p)` and `I(p)` for `p` in `(0, 1)`.
+/// Computes `H(p)` and `I(p)` for `p` in `(0, 1)`.
 pub(crate) fn from_occupancy(p: &Oracle) -> [Oracle; 2] {
     let rest = Oracle::integer(1).minus(p);
     let nats = p.times(&p.minus_ln()).plus(&rest.times(&rest.minus_ln()));
@@ -108,12 +108,12 @@ pub(crate) fn from_occupancy(p: &Oracle) -> [Oracle; 2] {
     [entropy.clone(), Oracle::integer(1).minus(&entropy)]
 }
 
-/// `H`, `I` and the occupancy at log-odds `l`, and the occupancy at `-l`, for `0 < l < 400`.
+/// Computes `H`, `I` and the occupancy at log-odds `l`, and the occupancy at `-l`, for `0 < l < 400`.
 pub(crate) fn from_log_odds(l: &Oracle) -> [Oracle; 4] {
     let one = Oracle::integer(1);
     let x = l.exp_neg();
     let w = one.plus(&x);
-    let minor = x.over(&w);
-    let entropy = w.ln().plus(&l.times(&minor)).over(&LN_2);
-    [entropy.clone(), one.minus(&entropy), one.minus(&minor), minor]
+    let smaller = x.over(&w);
+    let entropy = w.ln().plus(&l.times(&smaller)).over(&LN_2);
+    [entropy.clone(), one.minus(&entropy), one.minus(&smaller), smaller]
 }

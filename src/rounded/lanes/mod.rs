@@ -1,9 +1,9 @@
 //! Entropy and information of many cells at once, correctly rounded, in the lanes of whatever vector unit there is.
 //!
-//! Ziv's strategy once more, with a first step in floating point and without branches, which compilers turn into
-//! vector instructions: about each of some thousand centres, value and slope are known to twice the precision
-//! ([`table`]), the rest is a short polynomial ([`kernel`]), and a rounding test shows whether the sum of them all
-//! has one nearest float. The few cells that fail it are left to [`Bits`](super::Bits). So every vector unit gives
+//! Ziv's strategy once more, with a first step in floating point and without branches, which compilers turn into vector
+//! instructions: about each of some thousand centres, value and slope are known to twice the precision ([`table`]), the
+//! rest is a short polynomial ([`kernel`]), and a rounding test shows whether the sum of them all has one nearest
+//! float. The few cells that fail it are left to [`CellEnclosures`](super::CellEnclosures). So every vector unit gives
 //! the same bits: the right ones. The proof is in the chapter [`sums`](crate::book::sums).
 
 // A call or a branch in the loop and it is no longer made into vector instructions.

@@ -156,6 +156,7 @@ fn home(name: &str) -> &str {
         "Real" => "real",
         "Tally" | "Information" | "ExactSum" => "tally",
         "Failure" => "failure",
+        "Cells" => "cells",
         module => module,
     }
 }

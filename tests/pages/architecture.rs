@@ -156,6 +156,7 @@ fn home(name: &str) -> &str {
         "Real" => "real",
         "Tally" | "InformationSum" | "ExactSum" => "tally",
         "Failure" => "failure",
+        "Cells" => "cells",
         module => module,
     }
 }

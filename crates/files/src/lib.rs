@@ -69,3 +69,8 @@ pub use read::{
 };
 pub use source::{Disk, Memory, Opened, Source};
 pub use warning::Warning;
+
+/// The README, whose example is compiled.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

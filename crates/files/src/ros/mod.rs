@@ -1,7 +1,6 @@
 //! ROS maps: a yaml file that describes an image, the loaders' rules that turn grey levels into cells, and cells into grey
 //! levels that they read as they were meant.
 
-mod counting;
 mod description;
 mod nav2;
 mod pixel_table;

@@ -16,7 +16,8 @@ done
 
 output=$(mktemp)
 input=$(mktemp)
-trap 'rm -f "$output" "$input"' EXIT
+ranges=$(mktemp)
+trap 'rm -f "$output" "$input" "$ranges"' EXIT
 passed=0
 failed=0
 
@@ -70,6 +71,8 @@ if wanted rows.sollya; then
 fi
 for script in proofs/lanes_*.gappa; do
     wanted "$(basename "$script")" || continue
+    # The ranges of all scripts, made once.
+    [ -n "${REGIONS:-}" ] || { sollya proofs/lanes.sollya < /dev/null > "$ranges" 2>&1; export REGIONS="$ranges"; }
     proofs/regions.py "$script" > "$output" 2>&1
     verdict "$(basename "$script")" $?
 done

@@ -213,6 +213,11 @@ MUTATIONS = [
     ("lanes: what 1 - V loses, without V, in both", "lanes_f32.gappa",
      lanes(LANES, ("let rest = (T::one() - complement) - head;", "let rest = T::one() - complement;"),
            ("rest = rnd(rnd(1 - complement) - head);", "rest = rnd(1 - complement);"))),
+    ("lanes: a sum's low origin at the end of its binade, in both", "sum_f32.gappa",
+     [(file, "(Self::high_origin() + Self::high_origin()) *", "(Self::high_origin() + T::one()) *")
+      for file in (KERNEL, "proofs/sum_f32.gappa", "proofs/sum_f64.gappa")]
+     + [(f"proofs/{script}.gappa", "rnd(rnd(high_origin + high_origin) *", "rnd(rnd(high_origin + 1) *")
+        for script in ("sum_f32", "sum_f64")]),
     ("lanes/kernel.rs alone: the value's rest subtracted", "source",
      [(KERNEL, "products + (lost + value_low)", "products + (lost - value_low)")]),
     ("lanes/kernel.rs alone: (10.0, 480.0) made (11.0, 480.0)", "source", [(KERNEL, "unit(10.0, 480.0)", "unit(11.0, 480.0)")]),

@@ -215,6 +215,7 @@ impl Expression {
             Negative(inner) => format!("-{}", of(inner)),
             Call(name, arguments) => match (name.as_str(), arguments.as_slice()) {
                 ("one", []) => "1".to_owned(),
+                ("high_origin" | "low_origin", []) => name.clone(),
                 ("epsilon", []) => "EPSILON".to_owned(),
                 ("head", [x]) => format!("cut({})", of(x)),
                 ("fused", [a, b, c]) if fused => {

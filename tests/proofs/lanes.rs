@@ -1,5 +1,5 @@
-//! The Gappa scripts of the vector kernels, `proofs/lanes_*.gappa`: every statement of `series`, `value`, `bounds` and
-//! `complements` is quoted, and every definition under a quotation is its translation into rounded operations.
+//! The Gappa scripts of the vector kernels, `proofs/lanes_*.gappa` and `proofs/sum_*.gappa`: every statement of `series`,
+//! `value`, `bounds`, `complements` and of `Sum` is quoted, and every definition under a quotation is its translation into rounded operations.
 //!
 //! In a script of a format, fused or not, only one branch of `if FUSED` and of `if T::TERMS > 3` is there.
 
@@ -10,23 +10,37 @@ use std::collections::BTreeMap;
 use std::fs;
 
 /// The functions that a script quotes.
-const QUOTED: [&str; 4] = ["value", "series", "bounds", "complements"];
+fn quoted_by(script: &str) -> &'static [&'static str] {
+    if script.starts_with("sum_") {
+        &["high_origin", "low_origin", "add"]
+    } else {
+        &["value", "series", "bounds", "complements"]
+    }
+}
 
 fn kernel() -> String {
     fs::read_to_string("src/rounded/lanes/kernel.rs").expect("the source is there")
 }
 
-/// The statements of a free function of the kernel.
+/// The statements of a function of the kernel.
 fn statements_of(function: &str) -> Vec<String> {
     let code = without_comments(&kernel());
-    let (_, text) = code.split_once(&format!("fn {function}<T: Lane")).expect("a function");
+    let names = ["<T: Lane", "("].map(|after| format!("fn {function}{after}"));
+    let (before, text) = names.iter().find_map(|name| code.split_once(name)).expect("a function");
+    let line = before.rsplit('\n').next().unwrap_or("");
+    let indent = &line[..line.len() - line.trim_start().len()];
     let (_, body) = text.split_once(" {\n").expect("a body");
-    statements(body.split_once("\n}").expect("an end").0)
+    statements(body.split_once(&format!("\n{indent}}}")).expect("an end").0)
+}
+
+/// Whether a script is of the vector kernels.
+pub(crate) fn is_of_lanes(script: &str) -> bool {
+    script.starts_with("lanes_") || script.starts_with("sum_")
 }
 
 /// The scripts of the vector kernels.
 fn scripts_of_lanes() -> BTreeMap<String, String> {
-    scripts().into_iter().filter(|(name, _)| name.starts_with("lanes_")).collect()
+    scripts().into_iter().filter(|(name, _)| is_of_lanes(name)).collect()
 }
 
 /// The text up to the brace that closes it, and what follows.
@@ -65,7 +79,8 @@ fn as_run(script: &str, text: &str) -> String {
 fn the_scripts_quote_every_statement_of_the_kernels() {
     let scripts = scripts_of_lanes();
     let names: Vec<&str> = scripts.keys().map(String::as_str).collect();
-    let all = ["lanes_f32.gappa", "lanes_f32_fused.gappa", "lanes_f64.gappa", "lanes_f64_fused.gappa"];
+    let series = ["lanes_f32.gappa", "lanes_f32_fused.gappa", "lanes_f64.gappa", "lanes_f64_fused.gappa"];
+    let all: Vec<&str> = series.into_iter().chain(["sum_f32.gappa", "sum_f64.gappa"]).collect();
     assert_eq!(names, all);
     let format = fs::read_to_string("src/rounded/lanes/format.rs").expect("the source is there");
     for (name, script) in &scripts {
@@ -76,7 +91,7 @@ fn the_scripts_quote_every_statement_of_the_kernels() {
                 None => assert!(format.lines().any(|line| line.trim() == text), "{name}: {text}"),
             }
         }
-        for function in QUOTED {
+        for &function in quoted_by(name) {
             assert_eq!(quoted.remove(function), Some(statements_of(function)), "{name}: fn {function}");
         }
         assert!(quoted.is_empty(), "{name}: {quoted:?}");
@@ -104,7 +119,8 @@ fn the_definitions_translate_the_kernels() {
                 checked += 1;
             }
         }
-        assert!(checked >= if double { 26 } else { 23 }, "{name}: only {checked} definitions");
+        let least = if name.starts_with("sum_") { 4 } else { 23 + 3 * usize::from(double) };
+        assert!(checked >= least, "{name}: only {checked} definitions");
         for (defined, value) in script.lines().filter_map(crate::definition) {
             if let Some(unit) = defined.strip_prefix("unit_") {
                 let (sign, magnitude) = unit.strip_prefix("minus_").map_or(("", unit), |rest| ("-", rest));
@@ -123,8 +139,11 @@ fn the_scripts_have_the_formats_of_the_kernels() {
         let (bits, digits, least) = if name.contains("f64") { (64, 53, 1074) } else { (32, 24, 149) };
         let has = |line: &str| assert!(script.lines().any(|l| l == line), "{name}: {line}");
         has(&format!("@rnd = float<ieee_{bits}, ne>;"));
-        has("@wide = float<ieee_64, ne>;");
         has(&format!("EPSILON = 1b-{};", digits - 1));
+        if name.starts_with("sum_") {
+            continue;
+        }
+        has("@wide = float<ieee_64, ne>;");
         has("LN_2 = 0x1.62E42FEFA39EFp-1;");
         if !name.contains("_fused") {
             has(&format!("@cut = float<9, -{least}, zr>;"));
@@ -142,7 +161,7 @@ fn the_scripts_have_the_formats_of_the_kernels() {
 #[test]
 fn the_rows_are_certified_as_the_scripts_assume() {
     let rows = fs::read_to_string("proofs/rows.sollya").expect("the certificate is there");
-    for (name, script) in scripts_of_lanes() {
+    for (name, script) in scripts_of_lanes().into_iter().filter(|(name, _)| name.starts_with("lanes_")) {
         let format = if name.contains("f64") { "f64" } else { "f32" };
         let assumed: Vec<&str> =
             script.lines().filter_map(|line| line.trim().strip_suffix(" /\\ # rows.sollya")).collect();

@@ -55,7 +55,7 @@ fn scripts() -> BTreeMap<String, String> {
 
 /// The scripts of the kernels in integers: all but those of `lanes.rs`.
 fn integer_scripts() -> BTreeMap<String, String> {
-    scripts().into_iter().filter(|(name, _)| !name.starts_with("lanes_")).collect()
+    scripts().into_iter().filter(|(name, _)| !lanes::is_of_lanes(name)).collect()
 }
 
 fn definition(line: &str) -> Option<(String, String)> {

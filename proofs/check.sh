@@ -5,7 +5,8 @@
 #     proofs/check.sh            every proof
 #     proofs/check.sh NAME...    only these, of the names it prints
 #
-# SOURCE_TEST replaces the last command; proofs/mutate.py uses it to build the test once.
+# SOURCE_TEST replaces the last command, and ROWS is a file of the vector kernels' rows; proofs/mutate.py uses both to build
+# the tests once.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 
@@ -14,7 +15,9 @@ for tool in sollya gappa cargo; do
 done
 
 output=$(mktemp)
-trap 'rm -f "$output"' EXIT
+input=$(mktemp)
+ranges=$(mktemp)
+trap 'rm -f "$output" "$input" "$ranges"' EXIT
 passed=0
 failed=0
 
@@ -47,11 +50,31 @@ fi
 
 # Internal precision: integers here have up to 256 bits. A denominator is 1 plus something that is not negative.
 for script in proofs/*.gappa; do
+    case "$script" in proofs/lanes_*) continue ;; esac
     wanted "$(basename "$script")" || continue
     timeout 60 gappa -Eprecision=300 -Eno-auto-dichotomy -Wno-null-denominator "$script" > "$output" 2>&1
     status=$?
     [ -s "$output" ] && status=1 # a warning
     verdict "$(basename "$script")" "$status"
+done
+
+# The vector kernels: each row of their tables, then their scripts for each value and binade of distances.
+if wanted rows.sollya; then
+    {
+        cat proofs/rows.sollya
+        { cat "${ROWS:-/dev/null}"; [ -n "${ROWS:-}" ] || cargo test --quiet --lib rows_for_the_proof -- --ignored --nocapture; } | grep '^row('
+        echo 'print(numbers, "numbers");'
+    } > "$input" 2> /dev/null
+    sollya "$input" < /dev/null > "$output" 2>&1
+    [ "$(cat "$output")" = "57630 numbers" ]
+    verdict rows.sollya $?
+fi
+for script in proofs/lanes_*.gappa; do
+    wanted "$(basename "$script")" || continue
+    # The ranges of all scripts, made once.
+    [ -n "${REGIONS:-}" ] || { sollya proofs/lanes.sollya < /dev/null > "$ranges" 2>&1; export REGIONS="$ranges"; }
+    proofs/regions.py "$script" > "$output" 2>&1
+    verdict "$(basename "$script")" $?
 done
 
 # Arb, through python-flint, is not everywhere; the tables that it proved have a digest in src/limit/closed_form/tests.rs.

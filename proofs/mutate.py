@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Breaks the source or a proof, one change at a time, in a copy, and shows that proofs/check.sh notices.
 
-    proofs/mutate.py
+    proofs/mutate.py           every change
+    proofs/mutate.py lanes     those whose names contain this
 
 A change "in both" is made in the source and in the script that quotes it, so that only the proof itself can fail; a change of
 one file must be noticed as a difference. Prints the table of proofs/README.md; ends with status 1 if a change survives.
@@ -36,6 +37,30 @@ def both(file, script, quotation, definition):
     """A statement and its translation, each as (old, new)."""
     return [(file, *quotation), (f"proofs/{script}.gappa", *quotation), (f"proofs/{script}.gappa", *definition)]
 
+
+KERNEL, FORMAT = "src/rounded/lanes/kernel.rs", "src/rounded/lanes/format.rs"
+LANES = [f"lanes_{format}{fused}" for format in ("f32", "f64") for fused in ("", "_fused")]
+
+
+def lanes(scripts, quotation, *definitions):
+    """A line of the vector kernels and its translations in some of their scripts, each as (old, new)."""
+    edits = [(KERNEL, *quotation)]
+    for script in LANES:
+        # Quoted by every script, translated by those whose kernel runs it.
+        edits.append((f"proofs/{script}.gappa", *quotation))
+        if script in scripts:
+            edits += [(f"proofs/{script}.gappa", *definition) for definition in definitions]
+    return edits
+
+
+def lanes_error(format, error, smaller):
+    """The bound of a format made smaller in the source and in its scripts."""
+    edits = [(FORMAT, f", {error});", f", {smaller});")]
+    return edits + [(f"proofs/{script}.gappa", error, smaller) for script in LANES if format in script]
+
+
+FUSED = [script for script in LANES if "fused" in script]
+TWO_STEPS = [script for script in LANES if "fused" not in script]
 
 # (what is changed, what must fail, edits as (file, old, new)).
 MUTATIONS = [
@@ -159,6 +184,57 @@ MUTATIONS = [
      [("src/limit/closed_form/tables.rs", "34790286437749903", "34790286437749904")]),
     ("limit_certify.py: the polynomials within 2^-68", "limit_certify.py",
      [("proofs/limit_certify.py", "ERROR, DERIVATIVE = arb(2) ** -67", "ERROR, DERIVATIVE = arb(2) ** -68")]),
+    ("lanes: ERROR of f64 4e-20, in both", "lanes_f64.gappa", lanes_error("f64", "6e-20", "4e-20")),
+    ("lanes: ERROR of f32 5e-11, in both", "lanes_f32.gappa", lanes_error("f32", "7.4e-11", "5e-11")),
+    ("lanes: 2 b^2 for 3 b^2 in the series, in both", "lanes_f64_fused.gappa",
+     lanes(LANES, ("unit(3.0, 48.0)", "unit(2.0, 48.0)"), ("\nunit_3_48 = rnd(wide(wide(3 /", "\nunit_2_48 = rnd(wide(wide(2 /"),
+           ("bb * unit_3_48", "bb * unit_2_48"))),
+    ("lanes: y^5 left out, in both", "lanes_f64.gappa",
+     lanes(["lanes_f64", "lanes_f64_fused"], ("fused(yy, fused(yy, e5, e3), e1)", "fused(yy, e3, e1)"))
+     + [("proofs/lanes_f64.gappa", "odd = rnd(rnd(yy * rnd(rnd(yy * e5) + e3)) + e1);", "odd = rnd(rnd(yy * e3) + e1);"),
+        ("proofs/lanes_f64_fused.gappa", "odd = rnd(yy * rnd(yy * e5 + e3) + e1);", "odd = rnd(yy * e3 + e1);")]),
+    ("lanes: y by the slope, in both", "lanes_f32_fused.gappa",
+     lanes(LANES, ("let y = h * inverse;", "let y = h * slope;"), ("y = rnd(h * inverse);", "y = rnd(h * slope);"))),
+    ("lanes: the rest of the slope's product not negative, in both", "lanes_f64_fused.gappa",
+     lanes(FUSED, ("T::fused(slope, h, -first)", "T::fused(slope, h, first)"), ("rnd(slope * h - first);", "rnd(slope * h + first);"))),
+    ("lanes: the slope not split, in both", "lanes_f32.gappa",
+     lanes(TWO_STEPS, ("(slope.head() * h, ", "(slope * h, "), ("first = rnd(cut(slope) * h);", "first = rnd(slope * h);"))),
+    ("lanes: what the first sum loses, of slope's rest, in both", "lanes_f64.gappa",
+     lanes(LANES, ("let lost = (value - head) + first;", "let lost = (value - head) + second;"),
+           ("lost = rnd(rnd(value - head) + first);", "lost = rnd(rnd(value - head) + second);"))),
+    ("lanes: the value's rest left out, in both", "lanes_f64_fused.gappa",
+     lanes(LANES, ("products + (lost + value_low)", "products + (lost + second)"),
+           ("tail = rnd(products + rnd(lost + value_low));", "tail = rnd(products + rnd(lost + second));"))),
+    ("lanes: the bound added on both sides, in both", "lanes_f32.gappa",
+     lanes(FUSED, ("(head, -T::ERROR, tail)", "(head, T::ERROR, tail)"),
+           ("below = rnd(head * -ERROR + tail);", "below = rnd(head * ERROR + tail);"))
+     + [(f"proofs/{script}.gappa", "below = rnd(rnd(head * -ERROR) + tail);", "below = rnd(rnd(head * ERROR) + tail);")
+        for script in TWO_STEPS]),
+    ("lanes: 1 - V from above on both sides, in both", "lanes_f64_fused.gappa",
+     lanes(LANES, ("let lower = rest - (above + tiny);", "let lower = rest - (below + tiny);"),
+           ("lower = rnd(rest - rnd(above + tiny));", "lower = rnd(rest - rnd(below + tiny));"))),
+    ("lanes: what 1 - V loses, without V, in both", "lanes_f32.gappa",
+     lanes(LANES, ("let rest = (T::one() - complement) - head;", "let rest = T::one() - complement;"),
+           ("rest = rnd(rnd(1 - complement) - head);", "rest = rnd(1 - complement);"))),
+    ("lanes: a sum's low origin at the end of its binade, in both", "sum_f32.gappa",
+     [(file, "(Self::high_origin() + Self::high_origin()) *", "(Self::high_origin() + T::one()) *")
+      for file in (KERNEL, "proofs/sum_f32.gappa", "proofs/sum_f64.gappa")]
+     + [(f"proofs/{script}.gappa", "rnd(rnd(high_origin + high_origin) *", "rnd(rnd(high_origin + 1) *")
+        for script in ("sum_f32", "sum_f64")]),
+    ("lanes/kernel.rs alone: the value's rest subtracted", "source",
+     [(KERNEL, "products + (lost + value_low)", "products + (lost - value_low)")]),
+    ("lanes/kernel.rs alone: (10.0, 480.0) made (11.0, 480.0)", "source", [(KERNEL, "unit(10.0, 480.0)", "unit(11.0, 480.0)")]),
+    ("lanes/format.rs alone: a smaller ERROR", "source", [(FORMAT, "6e-20);", "5e-20);")]),
+    ("lanes_f64.gappa alone: a smaller error of the rows assumed", "source",
+     [("proofs/lanes_f64.gappa", "value_low -/ exact_value| <= 1b-72", "value_low -/ exact_value| <= 1b-73")]),
+    ("lanes_f32.gappa alone: rounded in f64", "source", [("proofs/lanes_f32.gappa", "@rnd = float<ieee_32,", "@rnd = float<ieee_64,")]),
+    ("lanes_f64_fused.gappa alone: a product not rounded", "source",
+     [("proofs/lanes_f64_fused.gappa", "y = rnd(h * inverse);", "y = h * inverse;")]),
+    ("lanes.sollya: a coefficient 1/41", "lanes_f64.gappa",
+     [("proofs/lanes.sollya", "-x * (1 + x^2)/40", "-x * (1 + x^2)/41")]),
+    ("rows.sollya: the error of f32 values 2^-25", "rows.sollya",
+     [("proofs/rows.sollya", 'certify("f32", "value", 2^(-24));', 'certify("f32", "value", 2^(-25));')]),
+    ("rows: the last bit of one value", "rows.sollya", [("rows", "9704117", "9704107")]),
 ]
 
 
@@ -170,9 +246,13 @@ def build_test():
     return next(m["executable"] for m in messages if m.get("executable") and m["target"]["name"] == "proofs")
 
 
-def failures(edits, test):
+def failures(edits, test, rows, regions):
     """The names that proofs/check.sh calls FAILED in a copy with these edits; only those that read an edited file."""
     readers = {Path(file).name for file, _, _ in edits if file.endswith(".gappa")} | {"source"}
+    if any(file == "proofs/lanes.sollya" for file, _, _ in edits):
+        readers.add("lanes_f64.gappa")
+    if any("rows" in file for file, _, _ in edits):
+        readers.add("rows.sollya")
     if any("constants" in file for file, _, _ in edits):
         readers.add("constants.sollya")
     if any("limit" in file for file, _, _ in edits):
@@ -180,34 +260,52 @@ def failures(edits, test):
     with tempfile.TemporaryDirectory() as folder:
         for part in ("src/rounded", "src/limit", "proofs"):
             shutil.copytree(ROOT / part, Path(folder) / part)
+        shutil.copy(rows, Path(folder) / "rows")
         for file, old, new in edits:
             path = Path(folder) / file
             text = path.read_text()
             if old not in text:
                 sys.exit(f"proofs/mutate.py: {file} no longer contains: {old}")
             path.write_text(text.replace(old, new))
-        environment = {**os.environ, "SOURCE_TEST": test}
+        environment = {**os.environ, "SOURCE_TEST": test, "ROWS": f"{folder}/rows"}
+        if not any(file == "proofs/lanes.sollya" for file, _, _ in edits):
+            environment["REGIONS"] = regions
         command = [Path(folder) / "proofs/check.sh", *(sorted(readers) if edits else [])]
         result = subprocess.run(command, env=environment, capture_output=True, text=True)
         return [line.removeprefix("FAILED ") for line in result.stdout.splitlines() if line.startswith("FAILED ")]
 
 
 def main():
+    """Makes the changes whose names contain the argument, or all."""
+    chosen = [mutation for mutation in MUTATIONS if all(part in mutation[0] for part in sys.argv[1:])]
     test = build_test()
-    survivors = failures([], test)
+    with tempfile.TemporaryDirectory() as folder:
+        # What every copy reads, made once.
+        rows, regions = f"{folder}/rows", f"{folder}/regions"
+        with open(rows, "w") as file:
+            command = ["cargo", "test", "--quiet", "--lib", "rows_for_the_proof", "--", "--ignored", "--nocapture"]
+            subprocess.run(command, cwd=ROOT, check=True, stdout=file, stderr=subprocess.DEVNULL)
+        with open(regions, "w") as file:
+            subprocess.run(["sollya", ROOT / "proofs/lanes.sollya"], stdin=subprocess.DEVNULL, stdout=file)
+        sys.exit(run(chosen, lambda edits: failures(edits, test, rows, regions)))
+
+
+def run(mutations, failures):
+    """Prints the table; the status, 1 if a change survives."""
+    survivors = failures([]) if len(mutations) == len(MUTATIONS) else []
     if survivors:
         sys.exit(f"proofs/mutate.py: fails before any change: {survivors}")
     with ThreadPoolExecutor(2) as pool:
-        found = pool.map(lambda mutation: failures(mutation[2], test), MUTATIONS)
+        found = pool.map(lambda mutation: failures(mutation[2]), mutations)
         noticed = 0
         print("| change | fails |\n|---|---|")
-        for (change, expected, _), failed in zip(MUTATIONS, found):
+        for (change, expected, _), failed in zip(mutations, found):
             # Changed in both, the script still speaks of the source: it is the proof that fails.
             proper = expected in failed and not (change.endswith("in both") and "source" in failed)
             noticed += proper
             print(f"| {change} | {', '.join(failed) or 'nothing'}{'' if proper else ' (expected ' + expected + ')'} |")
-    print(f"\n{noticed} of {len(MUTATIONS)} changes noticed")
-    sys.exit(noticed != len(MUTATIONS))
+    print(f"\n{noticed} of {len(mutations)} changes noticed")
+    return noticed != len(mutations)
 
 
 if __name__ == "__main__":

@@ -99,17 +99,32 @@ impl Parser<'_> {
         }
         let mut word = self.next()?;
         if word.starts_with(|c: char| c.is_ascii_digit()) {
+            // A float of the kernels is whole.
+            if self.take(".") && !self.take("0") {
+                return None;
+            }
             return Some(Number(word.split('_').next()?.to_owned()));
         }
         let mut path = vec![word.clone()];
         while self.take("::") {
+            if self.take("<") {
+                while !self.take(">") {
+                    self.next()?;
+                }
+                continue;
+            }
             word = self.next()?;
             path.push(word.clone());
         }
         let is_name =
             word.starts_with(char::is_alphabetic) && !matches!(word.as_str(), "let" | "if" | "else");
-        if !is_name || self.tokens.first().is_some_and(|t| t == ".") {
+        if !is_name {
             return None;
+        }
+        if self.take(".") {
+            // Only a method without arguments: a call of its name.
+            let method = self.next()?;
+            return (self.take("(") && self.take(")")).then(|| Call(method, vec![Name(word)]));
         }
         if self.take("(") {
             let mut arguments = Vec::new();
@@ -188,6 +203,38 @@ impl Expression {
             },
             Binary(operator, ..) => panic!("no rule for {operator}"),
         }
+    }
+
+    /// The expression as a Gappa script writes it in floating point: each operation is rounded, `fused` once if the kernel
+    /// has fused operations, and numbers are exact.
+    pub(crate) fn rounded(&self, fused: bool) -> String {
+        let of = |x: &Self| x.rounded(fused);
+        match self {
+            Number(text) => text.clone(),
+            Name(text) => text.clone(),
+            Negative(inner) => format!("-{}", of(inner)),
+            Call(name, arguments) => match (name.as_str(), arguments.as_slice()) {
+                ("one", []) => "1".to_owned(),
+                ("high_origin" | "low_origin", []) => name.clone(),
+                ("epsilon", []) => "EPSILON".to_owned(),
+                ("head", [x]) => format!("cut({})", of(x)),
+                ("fused", [a, b, c]) if fused => {
+                    format!("rnd({} * {} + {})", of(a), of(b), of(c)).replace("+ -", "- ")
+                }
+                ("fused", [a, b, c]) => format!("rnd(rnd({} * {}) + {})", of(a), of(b), of(c)),
+                ("unit", [a, b]) => format!("unit_{}_{}", of(a), of(b)).replace('-', "minus_"),
+                _ => format!("no rule for {name}"),
+            },
+            Binary(operator @ ("+" | "-" | "*" | "/"), a, b) => {
+                format!("rnd({} {operator} {})", of(a), of(b))
+            }
+            Binary(operator, ..) => format!("no rule for {operator}"),
+        }
+    }
+
+    /// The expression and every part of it, as [`Expression::rounded`] writes them.
+    pub(crate) fn rounded_parts(&self, fused: bool) -> Vec<String> {
+        self.parts().into_iter().map(|part| part.rounded(fused)).collect()
     }
 
     fn is_sum(&self) -> bool {

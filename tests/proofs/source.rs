@@ -53,7 +53,7 @@ impl Source {
     }
 }
 
-fn without_comments(text: &str) -> String {
+pub(crate) fn without_comments(text: &str) -> String {
     text.lines().map(|line| line.split("//").next().unwrap_or("")).collect::<Vec<_>>().join("\n")
 }
 
@@ -74,7 +74,7 @@ fn functions(code: &str) -> BTreeMap<String, Vec<String>> {
 }
 
 /// Cuts at each `;` outside of brackets; the last one, without `;`, is the value.
-fn statements(body: &str) -> Vec<String> {
+pub(crate) fn statements(body: &str) -> Vec<String> {
     let mut depth = 0;
     let mut statements = vec![String::new()];
     for c in body.chars() {

@@ -104,35 +104,22 @@ impl Block {
         let rows = table.rows::<ENTROPY>();
         let (zero, one) = (T::zero(), T::one());
         let [nearest, least] = [T::NEAREST, T::BINADES].map(|binades| T::from_parts(1, -binades));
-        // Rounding test: `4 u^2`, for two roundings of the rest of `1 - V` by `u^2`.
-        let tiny = T::epsilon() * T::epsilon();
         let mut marks = [mark::OPEN; BLOCK];
         let (mut entropy, mut information) = (Sum::new(), Sum::new());
         for (&p, mark) in cells.iter().zip(&mut marks) {
-            let rest = one - p;
-            let q = if p < rest { p } else { rest };
-            let double = q + q;
-            let near = double > T::HALF;
-            // Distances: that from unknown, or twice that from certain; both exact.
-            let x = if near { one - double } else { double };
+            let (x, near) = distance(p);
             let least = if near { nearest } else { least };
             // Not 0 itself: subnormal numbers are slow.
             let inside = if x > least { x } else { least };
             let (head, tail) = value::<T, FUSED, ENTROPY>(&rows, inside, near);
-            // Rounding test: the value less and more the bound; every number between is nearest to the same float.
-            let (below, above) =
-                (fused::<T, FUSED>(head, -T::ERROR, tail), fused::<T, FUSED>(head, T::ERROR, tail));
+            let (below, above) = bounds::<T, FUSED>(head, tail);
             let (value, value_above) = (head + below, head + above);
             // Domain: nearer to 0 there is no cell of the table.
             let mut done = (x >= least) & (value == value_above);
             // Domain: certain or unknown, where the distance is 0 and the answer exact.
             let edge = x.is_zero();
             if ENTROPY {
-                // Rounding test of `1 - V`: Dekker's sum, what `1 - head` has lost goes to the rest.
-                let complement = one - head;
-                let rest = (one - complement) - head;
-                let (other, other_above) =
-                    (complement + (rest - (above + tiny)), complement + (rest - (below - tiny)));
+                let (other, other_above) = complements(head, below, above);
                 done &= other == other_above;
                 let value = if done { value } else { zero };
                 let other = if edge {
@@ -163,6 +150,38 @@ impl Block {
             marks,
         }
     }
+}
+
+/// Returns the distance from unknown and `true`, or twice that from certain and `false` if this is at most 1/2.
+#[inline(always)]
+fn distance<T: Lane>(p: T) -> (T, bool) {
+    let rest = T::one() - p;
+    // Distances: where `1 - p` is rounded, `p` is the lesser; the rest is exact by Sterbenz's lemma.
+    let q = if p < rest { p } else { rest };
+    let double = q + q;
+    let near = double > T::HALF;
+    (if near { T::one() - double } else { double }, near)
+}
+
+/// Returns the rest of `V = head + tail` less and more the bound on its error.
+#[inline(always)]
+fn bounds<T: Lane, const FUSED: bool>(head: T, tail: T) -> (T, T) {
+    let fused = fused::<T, FUSED>;
+    // Rounding test: `V` is between; and if `head` plus either is rounded to the same float, so is `V`.
+    (fused(head, -T::ERROR, tail), fused(head, T::ERROR, tail))
+}
+
+/// Rounds `1 - V` from both sides, where `V` is between `head + below` and `head + above`.
+#[inline(always)]
+fn complements<T: Lane>(head: T, below: T, above: T) -> (T, T) {
+    // Rounding test of `1 - V`: `4 u^2`, for two roundings of its rest by `u^2`.
+    let tiny = T::epsilon() * T::epsilon();
+    // Error, sums: Dekker's fast sum; what `1 - head` has lost goes to the rest.
+    let complement = T::one() - head;
+    let rest = (T::one() - complement) - head;
+    let lower = rest - (above + tiny);
+    let upper = rest - (below - tiny);
+    (complement + lower, complement + upper)
 }
 
 /// Computes `a b + c`, in one step or in two.
@@ -209,7 +228,8 @@ pub(super) fn value<T: Lane, const FUSED: bool, const ENTROPY: bool>(
     let head = value + first;
     let lost = (value - head) + first;
     // Error, `R` and sums: from here on all is at most `2^-14.2 V`, and each operation rounds by `u` of that.
-    (head, fused(h * y, series, fused(slope_low, h, second)) + (lost + value_low))
+    let products = fused(h * y, series, fused(slope_low, h, second));
+    (head, products + (lost + value_low))
 }
 
 /// Computes `E(b, y)`, see [`value`]: the coefficients of the chapter, even and odd ones apart.
@@ -221,16 +241,17 @@ pub(super) fn series<T: Lane, const FUSED: bool>(b: T, y: T) -> T {
         T::nearest(numerator / denominator / (2.0 * core::f64::consts::LN_2))
     };
     let (bb, yy, by) = (b * b, y * y, b * y);
-    let mut even = fused(bb, unit(3.0, 48.0), unit(1.0, 48.0));
-    let mut odd = unit(-1.0, 6.0);
+    let e1 = unit(-1.0, 6.0);
+    let e2 = fused(bb, unit(3.0, 48.0), unit(1.0, 48.0));
     // Error, terms left out: the series ends with `y^5`, in `f32` with `y^2`.
-    if T::TERMS > 3 {
+    let (odd, even) = if T::TERMS > 3 {
         let e3 = fused(bb, unit(-1.0, 40.0), unit(-1.0, 40.0));
         let e4 = fused(bb, fused(bb, unit(5.0, 480.0), unit(10.0, 480.0)), unit(1.0, 480.0));
         let e5 = fused(bb, fused(bb, unit(-3.0, 672.0), unit(-10.0, 672.0)), unit(-3.0, 672.0));
-        even = fused(yy, e4, even);
-        odd = fused(yy, fused(yy, e5, e3), odd);
-    }
+        (fused(yy, fused(yy, e5, e3), e1), fused(yy, e4, e2))
+    } else {
+        (e1, e2)
+    };
     // Error, `R`: `|y| < 2^-8` and `1/2` leads, so that only the last two operations round by `u` of the sum.
     fused(by, odd, fused(yy, even, unit(1.0, 2.0)))
 }

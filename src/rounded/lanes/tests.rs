@@ -1,8 +1,8 @@
 //! The kernel against the enclosures, and its blocks against cells one by one.
 
-use super::format::Lane;
+use super::format::{HALF, Lane};
 use super::kernel::{BLOCK, Block, series, value};
-use super::table::Table;
+use super::table::{Rows, Table, row};
 use crate::cell::{Cell, State};
 use crate::real::Real;
 use crate::rounded::beyond_float::{self, Fixed};
@@ -39,6 +39,59 @@ fn error<T: Lane, const FUSED: bool, const ENTROPY: bool>(table: &Table<T>, p: T
     let exact = units(beyond_float::middle(if ENTROPY && !near { entropy } else { information }));
     let (head, tail) = value::<T, FUSED, ENTROPY>(&table.rows::<ENTROPY>(), x, near);
     Some((units_of(head) + units_of(tail) - exact).abs() as f64 / exact as f64)
+}
+
+/// A row of the table as [`rows`] gives it: the value's name, its centre, value, slope, their rests and the inverse.
+type Row<T> = (&'static str, [T; 6]);
+
+/// The rows of the table that have a centre.
+fn rows<T: Lane>(table: &Table<T>) -> impl Iterator<Item = Row<T>> {
+    let (with, without) = (table.rows::<true>(), table.rows::<false>());
+    (0..HALF).map_while(|number| Some((number, T::centre_of(number)?))).flat_map(move |(number, c)| {
+        let of = |rows: &Rows<'_, T>, near, entropy: bool| {
+            let row =
+                if entropy { row::<true>(number as u32, near) } else { row::<false>(number as u32, near) };
+            let (value_low, slope_low) = T::unpack(rows.low[row]);
+            [c, rows.value[row], rows.slope[row], value_low, slope_low, rows.inverse[row]]
+        };
+        [
+            ("near", of(&with, true, true)),
+            ("entropy", of(&with, false, true)),
+            ("information", of(&without, false, false)),
+        ]
+    })
+}
+
+/// A digest (64-bit FNV-1a) of the words of a table.
+fn digest<T: Lane>() -> u64 {
+    rows(&Table::<T>::new())
+        .flat_map(|(_, row)| row.map(|x| x.widen().to_bits()))
+        .flat_map(u64::to_le_bytes)
+        .fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
+}
+
+/// The rows that `proofs/rows.sollya` has certified.
+#[test]
+fn the_tables_are_the_certified_ones() {
+    assert_eq!([digest::<f32>(), digest::<f64>()], [0x0c4a_176b_66a0_4217, 0x9125_b826_fa0b_318f]);
+}
+
+/// Prints the rows for `proofs/rows.sollya`.
+#[test]
+#[ignore = "output for proofs/check.sh"]
+fn rows_for_the_proof() {
+    fn print<T: Lane>(format: &str) {
+        let dyadic = |x: T| {
+            let (m, e) = x.parts();
+            std::format!("{}{m} * 2^({e})", if x < T::zero() { "-" } else { "" })
+        };
+        for (name, row) in rows(&Table::<T>::new()) {
+            std::println!("row(\"{format}\", \"{name}\", {});", row.map(dyadic).join(", "));
+        }
+    }
+    std::println!("// {:#x?}", [digest::<f32>(), digest::<f64>()]);
+    print::<f32>("f32");
+    print::<f64>("f64");
 }
 
 /// Both ends of each cell of the table, where the centre is farthest, in both halves of it.

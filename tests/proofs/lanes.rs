@@ -1,0 +1,176 @@
+//! The Gappa scripts of the vector kernels, `proofs/lanes_*.gappa` and `proofs/sum_*.gappa`: every statement of `series`,
+//! `value`, `bounds`, `complements` and of `Sum` is quoted, and every definition under a quotation is its translation into rounded operations.
+//!
+//! In a script of a format, fused or not, only one branch of `if FUSED` and of `if T::TERMS > 3` is there.
+
+use crate::expression::expressions;
+use crate::source::{statements, without_comments};
+use crate::{Quotation, quotations, scripts};
+use std::collections::BTreeMap;
+use std::fs;
+
+/// The functions that a script quotes.
+fn quoted_by(script: &str) -> &'static [&'static str] {
+    if script.starts_with("sum_") {
+        &["high_origin", "low_origin", "add"]
+    } else {
+        &["value", "series", "bounds", "complements"]
+    }
+}
+
+fn kernel() -> String {
+    fs::read_to_string("src/rounded/lanes/kernel.rs").expect("the source is there")
+}
+
+/// The statements of a function of the kernel.
+fn statements_of(function: &str) -> Vec<String> {
+    let code = without_comments(&kernel());
+    let names = ["<T: Lane", "("].map(|after| format!("fn {function}{after}"));
+    let (before, text) = names.iter().find_map(|name| code.split_once(name)).expect("a function");
+    let line = before.rsplit('\n').next().unwrap_or("");
+    let indent = &line[..line.len() - line.trim_start().len()];
+    let (_, body) = text.split_once(" {\n").expect("a body");
+    statements(body.split_once(&format!("\n{indent}}}")).expect("an end").0)
+}
+
+/// Whether a script is of the vector kernels.
+pub(crate) fn is_of_lanes(script: &str) -> bool {
+    script.starts_with("lanes_") || script.starts_with("sum_")
+}
+
+/// The scripts of the vector kernels.
+fn scripts_of_lanes() -> BTreeMap<String, String> {
+    scripts().into_iter().filter(|(name, _)| is_of_lanes(name)).collect()
+}
+
+/// The text up to the brace that closes it, and what follows.
+fn block(text: &str) -> (&str, &str) {
+    let mut depth = 1;
+    for (i, c) in text.char_indices() {
+        match c {
+            '{' => depth += 1,
+            '}' => depth -= 1,
+            _ => {}
+        }
+        if depth == 0 {
+            return (&text[..i], &text[i + 1..]);
+        }
+    }
+    panic!("no end: {text}")
+}
+
+/// The text with the branch that a kernel takes in place of `if condition { .. } else { .. }`.
+fn branch(text: &str, condition: &str, taken: bool) -> String {
+    let Some((before, rest)) = text.split_once(&format!("if {condition} {{")) else {
+        return text.to_owned();
+    };
+    let (first, rest) = block(rest);
+    let (second, after) = block(rest.trim_start().strip_prefix("else {").expect("two branches"));
+    format!("{before}{}{after}", if taken { format!("{{{first}}}") } else { format!("{{{second}}}") })
+}
+
+/// The statement as the kernel of a script runs it.
+fn as_run(script: &str, text: &str) -> String {
+    let fused = branch(text, "FUSED", script.contains("_fused"));
+    branch(&fused, "T::TERMS > 3", script.contains("f64"))
+}
+
+#[test]
+fn the_scripts_quote_every_statement_of_the_kernels() {
+    let scripts = scripts_of_lanes();
+    let names: Vec<&str> = scripts.keys().map(String::as_str).collect();
+    let series = ["lanes_f32.gappa", "lanes_f32_fused.gappa", "lanes_f64.gappa", "lanes_f64_fused.gappa"];
+    let all: Vec<&str> = series.into_iter().chain(["sum_f32.gappa", "sum_f64.gappa"]).collect();
+    assert_eq!(names, all);
+    let format = fs::read_to_string("src/rounded/lanes/format.rs").expect("the source is there");
+    for (name, script) in &scripts {
+        let mut quoted: BTreeMap<String, Vec<String>> = BTreeMap::new();
+        for Quotation { function, text, .. } in quotations(script) {
+            match function {
+                Some(function) => quoted.entry(function).or_default().push(text),
+                None => assert!(format.lines().any(|line| line.trim() == text), "{name}: {text}"),
+            }
+        }
+        for &function in quoted_by(name) {
+            assert_eq!(quoted.remove(function), Some(statements_of(function)), "{name}: fn {function}");
+        }
+        assert!(quoted.is_empty(), "{name}: {quoted:?}");
+    }
+}
+
+#[test]
+fn the_definitions_translate_the_kernels() {
+    for (name, script) in scripts_of_lanes() {
+        let (fused, double) = (name.contains("_fused"), name.contains("f64"));
+        let mut checked = 0;
+        for quotation in quotations(&script) {
+            let Some(_) = quotation.function else { continue };
+            let text = as_run(&name, &quotation.text);
+            assert!(quotation.explained || !quotation.definitions.is_empty(), "{name}: not defined: {text}");
+            let parts: Vec<_> = expressions(&text).iter().flat_map(|x| x.rounded_parts(fused)).collect();
+            for (defined, value) in &quotation.definitions {
+                // `let name = ...` is all of its right side.
+                let whole = text
+                    .strip_prefix(&format!("let {defined} = "))
+                    .filter(|right| !right.starts_with("if "))
+                    .map(|right| expressions(right)[0].rounded(fused));
+                let found = whole.map_or_else(|| parts.contains(value), |whole| whole == *value);
+                assert!(found, "{name}: {defined} = {value}\nis not in {text}\nwhich is {parts:#?}");
+                checked += 1;
+            }
+        }
+        let least = if name.starts_with("sum_") { 4 } else { 23 + 3 * usize::from(double) };
+        assert!(checked >= least, "{name}: only {checked} definitions");
+        for (defined, value) in script.lines().filter_map(crate::definition) {
+            if let Some(unit) = defined.strip_prefix("unit_") {
+                let (sign, magnitude) = unit.strip_prefix("minus_").map_or(("", unit), |rest| ("-", rest));
+                let (numerator, denominator) = magnitude.split_once('_').expect("two numbers");
+                let expected = format!("rnd(wide(wide({sign}{numerator} / {denominator}) / (2 * LN_2)))");
+                assert_eq!(value, expected, "{name}: {defined}");
+            }
+        }
+    }
+}
+
+/// The format, the constants and the mathematics of each script.
+#[test]
+fn the_scripts_have_the_formats_of_the_kernels() {
+    for (name, script) in scripts_of_lanes() {
+        let (bits, digits, least) = if name.contains("f64") { (64, 53, 1074) } else { (32, 24, 149) };
+        let has = |line: &str| assert!(script.lines().any(|l| l == line), "{name}: {line}");
+        has(&format!("@rnd = float<ieee_{bits}, ne>;"));
+        has(&format!("EPSILON = 1b-{};", digits - 1));
+        if name.starts_with("sum_") {
+            continue;
+        }
+        has("@wide = float<ieee_64, ne>;");
+        has("LN_2 = 0x1.62E42FEFA39EFp-1;");
+        if !name.contains("_fused") {
+            has(&format!("@cut = float<9, -{least}, zr>;"));
+        }
+        // The last argument of the macro, which the script quotes.
+        let (_, quoted) = script.split_once("\n#? impl_lane!(").expect("the format is quoted");
+        let arguments = quoted.split_once(");").expect("an end").0;
+        assert!(arguments.starts_with(&format!("f{bits}, ")), "{name}: {arguments}");
+        has(&format!("ERROR = rnd({});", arguments.rsplit(", ").next().unwrap_or("")));
+    }
+    assert_eq!(core::f64::consts::LN_2.to_bits(), 0x3fe6_2e42_fefa_39ef);
+}
+
+/// What a script assumes of the rows of the table, `proofs/rows.sollya` certifies: `f32 |...| <= ...`.
+#[test]
+fn the_rows_are_certified_as_the_scripts_assume() {
+    let rows = fs::read_to_string("proofs/rows.sollya").expect("the certificate is there");
+    for (name, script) in scripts_of_lanes().into_iter().filter(|(name, _)| name.starts_with("lanes_")) {
+        let format = if name.contains("f64") { "f64" } else { "f32" };
+        let assumed: Vec<&str> =
+            script.lines().filter_map(|line| line.trim().strip_suffix(" /\\ # rows.sollya")).collect();
+        assert_eq!(assumed.len(), 5, "{name}");
+        for assumption in assumed {
+            let (what, bound) = assumption.split_once("| <= 1b-").expect("a power of two");
+            let what = what.trim_start_matches('|').split_once(" -/ ").expect("a relative error").0;
+            let certified = format!("certify(\"{format}\", \"{what}\", 2^(-{bound}));");
+            assert!(rows.lines().any(|line| line == certified), "{name}: not certified: {certified}");
+        }
+    }
+}

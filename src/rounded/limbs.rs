@@ -30,7 +30,7 @@ pub(crate) fn add(a: &mut [u64], b: &[u64]) -> bool {
 }
 
 /// `a - factor b` in place, `a` being at least as long as `b`; the borrow that is left.
-pub(super) fn subtract_multiple(a: &mut [u64], b: &[u64], factor: u64) -> u64 {
+pub(crate) fn subtract_multiple(a: &mut [u64], b: &[u64], factor: u64) -> u64 {
     let mut borrow = 0_u128;
     for (k, limb) in a.iter_mut().enumerate() {
         let product = u128::from(b.get(k).copied().unwrap_or(0)) * u128::from(factor) + borrow;

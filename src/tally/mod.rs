@@ -10,6 +10,7 @@ mod exact_sum;
 mod information;
 #[cfg(feature = "serde")]
 mod portable;
+mod removal;
 
 pub use exact_sum::ExactSum;
 pub use information::Information;
@@ -174,6 +175,11 @@ impl<T: Real> Tally<T> {
     /// The exact sum of the correctly rounded information of the cells over the count, rounded once to nearest.
     /// With nothing observed it is 0 by the paper's convention (property 1 of section I).
     pub fn mean_information(&self) -> T {
+        self.information.mean(self.observed())
+    }
+
+    /// The mean information in another format of floats: the same exact quotient, rounded once to that.
+    pub(crate) fn mean_information_as<U: Real>(&self) -> U {
         self.information.mean(self.observed())
     }
 

@@ -5,9 +5,11 @@
 //! | [`exact`] | decimals and hexadecimal floats, read exactly | `tests/vectors`, `benches/operations.rs` |
 //! | [`digest`] | digests of a million results and of integrals | `tests/same_bits.rs` |
 //! | [`battery`] | integrals with their values to 32 digits | `tests/library`, `benches/comparison` |
+//! | [`logs`] | public laser logs, where they are there | `tests/library` |
 //! | [`timing`] | the time of a call on a machine that others use, too | `benches/peers`, `crates/cli/benches` |
 
 pub mod battery;
 pub mod digest;
 pub mod exact;
+pub mod logs;
 pub mod timing;

@@ -27,6 +27,7 @@ chapters! {
     grids;
     scan;
     fusion;
+    evidence;
     expected;
     limit;
     closed_form;

@@ -9,13 +9,13 @@ use alloc::vec::Vec;
 /// One beam of a scan.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Beam<T> {
-    /// Its direction from the heading of the sensor, in radians, counter-clockwise.
+    /// The direction from the heading of the sensor, in radians, counter-clockwise.
     pub bearing: f64,
-    /// The range it returned, in metres; `None` if nothing came back from within the maximum range.
+    /// The range that came back, in metres; `None` if nothing came back from within the maximum range.
     pub range: Option<T>,
 }
 
-/// A scan whose numbers can be meant.
+/// A scan: finite bearings, and ranges above 0 and up to the maximum range.
 ///
 /// ```
 /// use mean_information::scan::{Beam, Pose, Scan};
@@ -34,7 +34,7 @@ pub struct Scan<T> {
 }
 
 impl<T: Real> Scan<T> {
-    /// The scan of a sensor at `pose` that sees up to `maximum_range` metres.
+    /// Creates the scan of a sensor at `pose` that sees up to `maximum_range` metres.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if the maximum range is not positive and finite, or there is no beam; [`Error::Item`]
@@ -59,22 +59,22 @@ impl<T: Real> Scan<T> {
         Ok(Self { pose, maximum_range, beams })
     }
 
-    /// Where the sensor stood.
+    /// Returns the pose of the sensor.
     pub fn pose(&self) -> &Pose {
         &self.pose
     }
 
-    /// How far it sees, in metres.
+    /// Returns the maximum range of the sensor, in metres.
     pub fn maximum_range(&self) -> T {
         self.maximum_range
     }
 
-    /// Its beams.
+    /// Returns the beams, in the order in which they were given.
     pub fn beams(&self) -> &[Beam<T>] {
         &self.beams
     }
 
-    /// The direction of a beam in the world: the exact sum of heading and bearing.
+    /// Returns the direction of a beam in the world: that of the exact sum of heading and bearing.
     ///
     /// # Errors
     /// Never for a beam of this scan, whose bearing is finite.

@@ -21,7 +21,7 @@ pub struct Direction {
 }
 
 impl Direction {
-    /// The direction of the sum of the angles (radians, counter-clockwise from the x axis), added up without
+    /// Finds the direction of the sum of the angles (radians, counter-clockwise from the x axis), added up without
     /// rounding.
     ///
     /// # Errors
@@ -32,23 +32,25 @@ impl Direction {
             if !value.is_finite() {
                 return Err(Error::Item { what: "angle", index, value, allowed: "finite, in radians" });
             }
+            // In units of 2^-128 turns, within 2 of them, which wrap as angles do: `scan.md`, "Which cells", 1.
             sum = sum.wrapping_add(rounded::turns(value));
         }
+        // To units of 2^-62, within 0.51 of them.
         let [cos, sin] = rounded::cos_sin(sum);
         Ok(Self { cos, sin })
     }
 
-    /// The cosine, that in units of `2^-62` rounded once to nearest ([`scan`](crate::book::scan)).
+    /// Returns the cosine: an integer of units of `2^-62` rounded once to nearest ([`scan`](crate::book::scan)).
     pub fn cos(self) -> f64 {
         self.cos as f64 / SCALE
     }
 
-    /// The sine, that in units of `2^-62` rounded once to nearest ([`scan`](crate::book::scan)).
+    /// Returns the sine: an integer of units of `2^-62` rounded once to nearest ([`scan`](crate::book::scan)).
     pub fn sin(self) -> f64 {
         self.sin as f64 / SCALE
     }
 
-    /// The cosine and the sine in units of `2^-62`.
+    /// Returns the cosine and the sine in units of `2^-62`.
     pub(super) fn units(self) -> [i64; 2] {
         [self.cos, self.sin]
     }

@@ -4,7 +4,7 @@ use super::direction::Direction;
 use crate::real::Real;
 use crate::rounded::{Coordinate, distance};
 
-/// Units of a cell's side, as an exponent of two.
+/// The number of units of a cell's side, as an exponent of two.
 pub(super) const FRACTION: u32 = 28;
 /// The same as a number.
 const UNITS: f64 = (1_u64 << FRACTION) as f64;
@@ -21,25 +21,28 @@ pub(super) struct Lattice {
 pub(super) type Point = [i64; 2];
 
 impl Lattice {
-    /// For a resolution that is positive and finite.
+    /// Creates the lattice of a resolution that is positive and finite.
     pub(super) fn new(resolution: f64) -> Self {
         Self { resolution }
     }
 
+    /// Returns the side of a cell, in metres.
     pub(super) fn resolution(self) -> f64 {
         self.resolution
     }
 
-    /// The lattice point nearest to a coordinate in metres, ties to even; `None` beyond [`END`].
+    /// Finds the lattice point nearest to a coordinate in metres, ties to even; `None` beyond [`END`].
     pub(super) fn nearest(self, x: f64) -> Option<i64> {
         let (m, e) = x.parts();
         self.signed(u128::from(m), e, x < 0.0)
     }
 
-    /// The lattice point nearest to the one at `distance` metres from `start`; `None` beyond [`END`].
+    /// Finds the lattice point nearest to the one at `distance` metres from `start`; `None` beyond [`END`].
     pub(super) fn along(self, start: Point, direction: Direction, distance: f64) -> Option<Point> {
         let (m, e) = distance.parts();
         let coordinate = |start: i64, unit: i64| {
+            // A significand below 2^53 times units of 2^-62, exactly; the one rounding is that to the lattice:
+            // `scan.md`, "Which cells", 2.
             let product = u128::from(m) * u128::from(unit.unsigned_abs());
             let moved = start + self.signed(product, e - 62, unit < 0)?;
             (moved.unsigned_abs() <= END).then_some(moved)
@@ -48,7 +51,7 @@ impl Lattice {
         Some([coordinate(start[0], cos)?, coordinate(start[1], sin)?])
     }
 
-    /// `±m 2^e` metres in lattice units, rounded to nearest.
+    /// Converts `±m 2^e` metres to lattice units, rounded to nearest.
     fn signed(self, m: u128, e: i32, negative: bool) -> Option<i64> {
         let (divisor, exponent) = self.resolution.parts();
         let magnitude =
@@ -56,20 +59,21 @@ impl Lattice {
         Some(if negative { -(magnitude as i64) } else { magnitude as i64 })
     }
 
-    /// A number of units that is not more than so many metres, and hardly less; 0 for NaN, at most `2^62`.
+    /// Converts metres to units, rounded down by a part in `2^49` and two units at most; 0 for NaN, at most `2^62`.
     pub(super) fn units_within(self, metres: f64) -> u64 {
         // The quotient and the last product round up by half an ulp each, at most.
         (((metres / self.resolution) * UNITS * (1.0 - 4.0 * f64::EPSILON)) as u64).min(2 * END)
     }
 
-    /// Whether the centre of a cell is at most so many units from a point, at most `2^62`.
+    /// Tells whether the centre of a cell is at most so many units from a point, at most `2^62`: exactly.
     #[inline]
     pub(super) fn is_within(from: Point, cell: [i64; 2], units: u64) -> bool {
         let [x, y] = offset_of_centre(from, cell).map(|offset| u128::from(offset.unsigned_abs()));
+        // Below 2^62 each: no product leaves 128 bits, and nothing is rounded.
         x * x + y * y <= u128::from(units) * u128::from(units)
     }
 
-    /// The distance in metres of a point from the centre of a cell: the nearest float, ties to even.
+    /// Computes the distance in metres of a point from the centre of a cell: the nearest float, ties to even.
     #[inline]
     pub(super) fn distance_to_centre(self, from: Point, cell: [i64; 2]) -> f64 {
         let [x, y] = offset_of_centre(from, cell).map(|offset| {
@@ -79,13 +83,13 @@ impl Lattice {
     }
 }
 
-/// How far the centre of a cell is from a point, in units.
+/// Returns how far the centre of a cell is from a point, in units.
 #[inline]
 fn offset_of_centre(from: Point, cell: [i64; 2]) -> Point {
     [0, 1].map(|k| (cell[k] << FRACTION) + (1 << (FRACTION - 1)) - from[k])
 }
 
-/// `n 2^e / divisor` rounded to nearest, ties to even; `None` from about `2^75`. `n` below `2^127`, `divisor` below
+/// Computes `n 2^e / divisor`, rounded to nearest, ties to even; `None` from about `2^75`. `n` below `2^127`, `divisor` below
 /// `2^53`.
 fn quotient(n: u128, e: i32, divisor: u64) -> Option<u128> {
     if n == 0 {
@@ -104,6 +108,7 @@ fn quotient(n: u128, e: i32, divisor: u64) -> Option<u128> {
         }
         (n, divisor << e.unsigned_abs())
     };
+    // Up above half a unit, and from half a unit where that makes it even.
     let (whole, rest) = (n / divisor, n % divisor);
     let up = rest > divisor - rest || rest == divisor - rest && whole & 1 == 1;
     Some(whole + u128::from(up))

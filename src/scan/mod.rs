@@ -1,24 +1,40 @@
 //! Maps from range scans: beams are inserted into a grid whose cells sum log-odds in integers, so that no order of scans
-//! changes a bit ([`ScanMap`]).
+//! changes a bit, and a scan that is removed leaves none ([`ScanMap`]).
 //!
-//! What is rounded, and how, is the chapter [`scan`](crate::book::scan). Four words for places:
+//! What is rounded, and how, is the chapter [`scan`](crate::book::scan); what such maps tell of trajectories is the chapter
+//! [`evidence`](crate::book::evidence). The words for places:
 //!
 //! | word | is |
 //! |---|---|
 //! | `Lattice` | the plane in integers: units of `2^-28` of a cell, on which beams begin and end |
 //! | `Area` | a rectangle of cells, by their columns and rows on the lattice |
 //! | `Raster` | the stored cells of one area, which grows as scans come |
+//! | [`Layer`] | a number for each cell of a finished map, at a place in the world |
 //! | [`Grid`](crate::map::Grid) | a finished map: cells in an encoding, at a place in the world |
+//!
+//! And on the way from a scan to its map: `Rays` are its beams on the lattice, `Reading` is what it says of one cell, `Sums`
+//! is what the map stores, `Inserted` which scans it holds.
 
+mod agreement;
 mod beams;
 mod direction;
+mod inserted;
+mod jackknife;
 mod lattice;
+mod layer;
+mod measures;
 mod pose;
 mod raster;
+mod rays;
 mod scan_map;
+mod sums;
+mod tallied;
 mod traversal;
 
 pub use beams::{Beam, Scan};
 pub use direction::Direction;
+pub use jackknife::{Difference, blocks};
+pub use layer::Layer;
 pub use pose::Pose;
 pub use scan_map::ScanMap;
+pub use tallied::TalliedMap;

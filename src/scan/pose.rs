@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 
-/// Where a sensor stood: x and y in metres, and its heading in radians, counter-clockwise from the x axis.
+/// The pose of a sensor: x and y in metres, and its heading in radians, counter-clockwise from the x axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
     x: f64,
@@ -11,7 +11,7 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// The pose at `x`, `y` (metres), heading to `theta` (radians).
+    /// Creates the pose at `x`, `y` (metres), heading to `theta` (radians).
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if one of them is not finite.
@@ -36,12 +36,12 @@ impl Pose {
         Ok(Self { x, y, theta })
     }
 
-    /// x and y, in metres.
+    /// Returns x and y, in metres.
     pub fn position(&self) -> [f64; 2] {
         [self.x, self.y]
     }
 
-    /// The heading, in radians.
+    /// Returns the heading, in radians.
     pub fn theta(&self) -> f64 {
         self.theta
     }

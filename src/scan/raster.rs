@@ -11,13 +11,13 @@ pub(super) struct Area {
 }
 
 impl Area {
-    /// One cell.
+    /// Returns the area of one cell.
     #[inline]
     pub(super) fn of_cell(cell: [i64; 2]) -> Self {
         Self { low: cell, high: cell.map(|k| k + 1) }
     }
 
-    /// The least area that holds both.
+    /// Returns the least area that holds both.
     pub(super) fn union(self, other: Self) -> Self {
         Self {
             low: [0, 1].map(|k| self.low[k].min(other.low[k])),
@@ -25,7 +25,7 @@ impl Area {
         }
     }
 
-    /// Widened by half of its own size on the sides where `wanted` lies beyond it, at least to `wanted`.
+    /// Grows the sides beyond which `wanted` lies: by half of its own size, at least to `wanted`.
     fn grown_to(self, wanted: Self) -> Self {
         let margin = |k: usize| (self.high[k] - self.low[k]) / 2;
         let low = |k: usize| {
@@ -41,32 +41,41 @@ impl Area {
         Self { low: [low(0), low(1)], high: [high(0), high(1)] }
     }
 
-    /// The column and row of its lowest cell.
+    /// Returns the column and the row of the lowest cell.
     pub(super) fn low(self) -> [i64; 2] {
         self.low
     }
 
-    /// Columns and rows.
+    /// Returns how many columns and rows there are.
     #[inline]
     pub(super) fn size(self) -> [usize; 2] {
         [0, 1].map(|k| (self.high[k] - self.low[k]) as usize)
     }
 
-    /// The number of its cells.
+    /// Counts the cells.
     pub(super) fn cells(self) -> u128 {
         let [columns, rows] = [0, 1].map(|k| self.high[k].abs_diff(self.low[k]));
         u128::from(columns) * u128::from(rows)
     }
 
-    /// The number of its cells, if it is within the limit.
+    /// Counts the cells, if there are no more than the limit.
+    ///
+    /// # Errors
+    /// [`Error::TooManyCells`] otherwise.
     pub(super) fn within(self, limit: u64) -> Result<usize, Error> {
         let cells = self.cells();
         let fits = usize::try_from(cells).ok().filter(|_| cells <= u128::from(limit));
         fits.ok_or(Error::too_many_cells(cells, limit))
     }
 
+    /// Tells whether all cells of `other` are in this area.
     fn holds(self, other: Self) -> bool {
         self.union(other) == self
+    }
+
+    /// Tells whether this area lies within `outer` and meets none of its sides.
+    pub(super) fn is_inside(self, outer: Self) -> bool {
+        [0, 1].iter().all(|&k| outer.low[k] < self.low[k] && self.high[k] < outer.high[k])
     }
 }
 
@@ -78,7 +87,7 @@ pub(super) struct Raster<C> {
 }
 
 impl<C: Copy> Raster<C> {
-    /// The same value everywhere.
+    /// Creates a raster with the same value everywhere.
     ///
     /// # Errors
     /// [`Error::TooManyCells`] if there are more cells than the limit, or no memory for them.
@@ -109,35 +118,54 @@ impl<C: Copy> Raster<C> {
         Ok(())
     }
 
+    /// Returns where the cells of a row that lie in `area` are stored.
     fn range(&self, area: Area, row: i64) -> core::ops::Range<usize> {
         let [width, _] = self.area.size();
         let start = (row - self.area.low[1]) as usize * width + (area.low[0] - self.area.low[0]) as usize;
         start..start + area.size()[0]
     }
 
-    /// The part of a row that lies in `area`, which the raster must hold.
+    /// Returns the part of a row that lies in `area`, which the raster must hold.
     pub(super) fn row(&self, area: Area, row: i64) -> &[C] {
         &self.cells[self.range(area, row)]
     }
 
-    /// The part of a row that lies in `area`, which the raster must hold.
-    pub(super) fn row_mut(&mut self, area: Area, row: i64) -> &mut [C] {
+    /// Returns the part of a row that lies in `area`, which the raster must hold, to be changed.
+    fn row_mut(&mut self, area: Area, row: i64) -> &mut [C] {
         let range = self.range(area, row);
         &mut self.cells[range]
     }
 
-    /// The value of a cell, which the raster must hold.
+    /// Returns the value of a cell, which the raster must hold.
+    pub(super) fn cell(&self, [column, row]: [i64; 2]) -> &C {
+        &self.row(Area::of_cell([column, row]), row)[0]
+    }
+
+    /// Returns the value of a cell, which the raster must hold, to be changed.
     pub(super) fn cell_mut(&mut self, [column, row]: [i64; 2]) -> &mut C {
         &mut self.row_mut(Area::of_cell([column, row]), row)[0]
     }
 
-    pub(super) fn area(&self) -> Area {
-        self.area
-    }
-
-    /// The rows of an area that the raster must hold, from the lowest.
+    /// Returns the rows of an area that the raster must hold, from the lowest.
     pub(super) fn rows(&self, area: Area) -> impl Iterator<Item = &[C]> {
         (area.low[1]..area.high[1]).map(move |row| self.row(area, row))
+    }
+}
+
+impl<C: Copy + PartialEq> Raster<C> {
+    /// Tells whether the cells of `area` that are not in `inner` are all `fill`; without an inner area, all cells.
+    pub(super) fn is_filled_outside(&self, area: Area, inner: Option<Area>, fill: C) -> bool {
+        let is_filled = |cells: &[C]| cells.iter().all(|&cell| cell == fill);
+        (area.low[1]..area.high[1]).all(|row| {
+            let cells = self.row(area, row);
+            match inner.filter(|inner| (inner.low[1]..inner.high[1]).contains(&row)) {
+                Some(inner) => {
+                    let [left, right] = [inner.low[0], inner.high[0]].map(|k| (k - area.low[0]) as usize);
+                    is_filled(&cells[..left]) && is_filled(&cells[right..])
+                }
+                None => is_filled(cells),
+            }
+        })
     }
 }
 
@@ -179,6 +207,28 @@ mod tests {
         assert_eq!(grown([9, 21], [18, 25]), Area { low: [6, 20], high: [18, 26] });
         assert_eq!(grown([10, 19], [12, 22]), Area { low: [10, 17], high: [18, 26] });
         assert_eq!(grown([10, 20], [18, 99]), Area { low: [10, 20], high: [18, 99] });
+    }
+
+    #[test]
+    fn what_is_outside_is_each_cell_that_is_not_inside() {
+        let area = Area { low: [-3, 2], high: [4, 7] };
+        let inner = Area { low: [-1, 3], high: [2, 6] };
+        assert!(inner.is_inside(area) && !area.is_inside(area));
+        for row in 2..7 {
+            for column in -3..4 {
+                let cell = [column, row];
+                let mut raster = Raster::new(area, 5, 35).unwrap();
+                *raster.cell_mut(cell) = 6;
+                assert_eq!((*raster.cell(cell), raster.cells.iter().sum::<i32>()), (6, 35 * 5 + 1));
+                let is_within = inner.holds(Area::of_cell(cell));
+                assert_eq!(raster.is_filled_outside(area, Some(inner), 5), is_within, "{cell:?}");
+                assert!(!raster.is_filled_outside(area, None, 5));
+                assert!(raster.is_filled_outside(area, Some(area), 5));
+                // Sides that two areas share.
+                let touching = Area { low: [-3, 2], high: [2, 6] };
+                assert!(!touching.is_inside(area));
+            }
+        }
     }
 
     #[test]

@@ -14,25 +14,28 @@ use super::lattice::{FRACTION, Point};
 #[derive(Clone, Debug)]
 pub(super) struct Traversal {
     cell: [i64; 2],
-    /// Lines of the grid yet to cross, per axis.
+    /// The number of lines of the grid yet to be crossed, per axis.
     left: [u64; 2],
-    /// Where the next line is crossed, and how far apart two lines are, along the segment of length `|dx| |dy|`.
+    /// The place at which the next line is crossed, and the distance between two lines, along the segment of length
+    /// `|dx| |dy|`.
     next: [u128; 2],
     apart: [u128; 2],
     forward: [bool; 2],
     done: bool,
 }
 
-/// The cell that holds a point.
+/// Finds the cell that holds a point.
 pub(super) fn cell_of(point: Point) -> [i64; 2] {
     point.map(|x| x >> FRACTION)
 }
 
 impl Traversal {
+    /// Begins in the cell that holds `from`.
     pub(super) fn new(from: Point, to: Point) -> Self {
         let (cell, last) = (cell_of(from), cell_of(to));
         let axis = |k: usize| (cell[k].abs_diff(last[k]), to[k] >= from[k]);
         let ([columns, rows], forward) = ([axis(0).0, axis(1).0], [axis(0).1, axis(1).1]);
+        // From the start to the first line; below 2^62, and below 2^125 times the other side.
         let distance = |k: usize| {
             let line = (cell[k] + i64::from(forward[k])) << FRACTION;
             u128::from(line.abs_diff(from[k]))
@@ -71,6 +74,7 @@ impl Iterator for Traversal {
             [_, 0] => self.cross(0),
             [0, _] => self.cross(1),
             _ => {
+                // Both, through a corner.
                 let [x, y] = self.next;
                 if x <= y {
                     self.cross(0);

@@ -1,6 +1,7 @@
 //! An exact sum of non-negative floating-point numbers: a fixed-point integer wide enough for every `f64`
 //! (Kulisch's long accumulator, without sign).
 
+use crate::error::Error;
 use crate::real::Real;
 use crate::rounded::beyond_float::Fixed;
 use crate::rounded::{limbs, round_limbs, shift_right};
@@ -87,6 +88,38 @@ impl ExactSum {
         // A number of 128 bits at any bit of a limb touches three limbs; the carry goes on from there.
         let (limb, bit) = (place / 64, place % 64);
         self.carry_into(limb, &limbs::at_bit(n, bit));
+    }
+
+    /// Takes `x` in `[0, 1]` out of the sum again, `count` times: the exact inverse of [`ExactSum::add_many`].
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if `x` is NaN or outside `[0, 1]`, or if `count` times `x` is more than the sum. Then the sum
+    /// has not changed.
+    ///
+    /// ```
+    /// use mean_information::ExactSum;
+    /// let mut sum = ExactSum::new();
+    /// sum.add(0.75_f64);
+    /// sum.add_many(1e-300_f64, 3);
+    /// sum.remove_many(0.75_f64, 1)?;
+    /// assert_eq!(sum.value::<f64>(), 3e-300);
+    /// assert!(sum.remove_many(1e-300_f64, 4).is_err());
+    /// # Ok::<(), mean_information::Error>(())
+    /// ```
+    pub fn remove_many<T: Real>(&mut self, x: T, count: u64) -> Result<(), Error> {
+        if !(x >= T::zero() && x <= T::one()) {
+            return Err(Error::out_of_range("number to remove from a sum", x.widen(), "0 to 1"));
+        }
+        let (m, e) = x.parts();
+        let (limb, bit) = ((e - LOWEST) as usize / 64, (e - LOWEST) as usize % 64);
+        let mut rest = self.limbs;
+        let removed = limbs::at_bit(u128::from(m) * u128::from(count), bit);
+        if limbs::subtract_multiple(&mut rest[limb..], &removed, 1) != 0 {
+            let total = x.widen() * count as f64;
+            return Err(Error::out_of_range("amount to remove from a sum", total, "at most the sum"));
+        }
+        self.limbs = rest;
+        Ok(())
     }
 
     /// Adds the sum of another.

@@ -174,6 +174,11 @@ impl<T: Real> Tally<T> {
         self.information.mean(self.observed())
     }
 
+    /// Returns the mean information in another format of floats: the same exact quotient, rounded once to that.
+    pub(crate) fn mean_information_as<U: Real>(&self) -> U {
+        self.information.mean(self.observed())
+    }
+
     /// Returns `N_obs`, Eq. 4: the number of cells with `p != 1/2`.
     pub fn observed(&self) -> u64 {
         self.free + self.occupied

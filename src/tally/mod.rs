@@ -12,6 +12,7 @@ mod information_sum;
 mod map_tally;
 #[cfg(feature = "serde")]
 mod portable;
+mod removal;
 
 pub use exact_sum::ExactSum;
 pub use information_sum::InformationSum;

@@ -5,7 +5,9 @@ use mean_information::quadrature::rigorous::Rigorous;
 use mean_information::room::{CartesianRoom, PolarRoom};
 use mean_information::scalar::Scalar;
 use mean_information::sensor::{GaussianSensor, InverseSensorModel};
-use mean_information::{ExactSum, InformationSum, Tally, cell, elementary, expected, fusion, limit, map};
+use mean_information::{
+    ExactSum, InformationSum, Tally, cell, elementary, expected, fusion, limit, map, scan,
+};
 use std::path::Path;
 
 type Particles<'a> = expected::Hypotheses<'a, map::encoding::LogOdds<f64>>;
@@ -59,6 +61,7 @@ pub(crate) fn guarantees() -> Vec<Guarantee> {
         expected::weighted_mean::<f64> => "expected::weighted_mean", 0.5, Proved;
         expected::ExpectedMap::<f64>::grid => "ExpectedMap::grid", 0.5, Proved;
         Particles::log_linear_pool => "Hypotheses::log_linear_pool", 0.5, Proved;
+        scan::ScanMap::<f64>::agreement => "ScanMap::agreement", 0.5, Proved;
         limit::rigorous::<GaussianSensor<f64>> => "limit::rigorous", 0.0, Proved;
         limit::closed_form::<f64> => "limit::closed_form", 0.501, Proved;
         PolarRoom::<GaussianSensor<f64>>::distance => "PolarRoom::distance", 0.5, Proved;

@@ -1,6 +1,10 @@
 //! Scans inserted into maps: against cells found one by one, and relations that change no bit.
 
+mod agreement;
+mod jackknife;
+mod public_log;
 mod refused;
+mod removal;
 
 use super::common::power;
 use mean_information::cell::log_odds_from_occupancy;

@@ -106,6 +106,42 @@ proptest! {
         prop_assert_eq!(parts.into_iter().sum::<Tally<f64>>(), whole);
     }
 
+    /// In any order, to the bits of a tally that never had them.
+    #[test]
+    fn removed_cells_leave_no_bit(
+        map in vec(occupancy(), 0..60), (gone, shuffled) in vec(occupancy(), 1..60).prop_flat_map(|gone| (Just(gone.clone()), Just(gone).prop_shuffle())),
+        many in 2_u64..1 << 40,
+    ) {
+        let alone = tally(&map);
+        let mut all = alone.clone();
+        for &p in &gone {
+            all.add_many(cell(p), many);
+        }
+        for &p in &shuffled {
+            all.remove(cell(p))?;
+            all.remove_many(cell(p), many - 1)?;
+        }
+        prop_assert_eq!(&all, &alone);
+        let single = |p: f64| Cell::from_occupancy(p as f32).unwrap();
+        let alone: Tally<f32> = map.iter().map(|&p| single(p)).collect();
+        let mut all: Tally<f32> = gone.iter().map(|&p| single(p)).collect();
+        all.merge(&alone);
+        for &p in &shuffled {
+            all.remove(single(p))?;
+        }
+        prop_assert_eq!(all, alone);
+    }
+
+    /// What is refused changes nothing.
+    #[test]
+    fn more_than_was_added_cannot_be_removed(map in vec(occupancy(), 0..30), p in occupancy(), more in 1_u64..9) {
+        let mut tally = tally(&map);
+        let before = tally.clone();
+        let alike = map.iter().filter(|&&q| cell(q).state() == cell(p).state()).count() as u64;
+        prop_assert!(tally.remove_many(cell(p), alike + more).is_err());
+        prop_assert_eq!(tally, before);
+    }
+
     #[test]
     fn counting_many_is_counting_each(p in occupancy(), count in 2_u64..50) {
         let mut many = Tally::new();
@@ -231,4 +267,34 @@ fn more_cells_than_can_be_counted_panic_as_documented() {
     let mut tally = Tally::<f64>::new();
     tally.add_many(Cell::unknown(), u64::MAX);
     tally.add(Cell::unknown());
+}
+
+#[test]
+fn a_sum_is_not_taken_below_zero() {
+    let (small, mut sum) = (power(-1074), ExactSum::new());
+    sum.add_many(small, 5);
+    for (x, count) in [(small, 6), (1.0, 1), (power(-1000), 3), (-0.5, 2), (f64::NAN, 2), (1.5, 2)] {
+        let before = sum.clone();
+        assert!(sum.remove_many(x, count).is_err(), "{x} {count}");
+        assert_eq!(sum, before);
+    }
+    // A borrow from the highest limb to the lowest, and the place of 1 itself.
+    sum.add_many(1.0_f64, 1 << 60);
+    sum.remove_many(small, 7).unwrap();
+    let mut expected = ExactSum::new();
+    expected.add_many(1.0_f64, (1 << 60) - 1);
+    for k in 1..=1074 {
+        expected.add(power(-k));
+    }
+    expected.remove_many(small, 1).unwrap();
+    assert_eq!(sum, expected);
+    sum.remove_many(1.0_f64, (1 << 60) - 1).unwrap();
+    assert_eq!(sum.value::<f64>(), 1.0);
+    assert_eq!(
+        sum.remove_many(1.0_f64, 1).unwrap_err().to_string(),
+        "amount to remove from a sum is 1, allowed is at most the sum"
+    );
+    // As much entropy is not there, though as many cells are.
+    let mut tally = tally(&[0.125, 0.75]);
+    assert!(tally.remove(cell(0.25)).is_err() && tally.remove(cell(0.125)).is_ok());
 }

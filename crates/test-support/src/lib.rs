@@ -7,6 +7,7 @@
 //! | [`battery`] | integrals with their values to 32 digits | `tests/library`, `benches/comparison` |
 //! | `formats` | maps made on the spot, and folders for them (feature `formats`) | `crates/files/tests`, `crates/cli/tests` |
 //! | [`properties`] | what fuzzing tries to break | `fuzz`, `crates/files/tests` |
+//! | [`logs`] | public laser logs, where they are there | `tests/library` |
 //! | [`timing`] | the time of a call on a machine that others use, too | `benches/peers`, `crates/cli/benches` |
 
 pub mod battery;
@@ -14,5 +15,6 @@ pub mod digest;
 pub mod exact;
 #[cfg(feature = "formats")]
 pub mod formats;
+pub mod logs;
 pub mod properties;
 pub mod timing;

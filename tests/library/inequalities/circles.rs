@@ -67,7 +67,7 @@ impl Room {
     }
 
     fn beam(&self) -> f64 {
-        let sum: f64 = (0..self.x as u32 + 1).map(|k| self.f(f64::from(k) + 0.5)).sum();
+        let sum: f64 = (0..=self.x as u32).map(|k| self.f(f64::from(k) + 0.5)).sum();
         (sum - self.x * self.limit(Weight::Radial)).abs()
     }
 

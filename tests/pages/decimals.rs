@@ -48,7 +48,9 @@ fn long_decimals_are_those_of_the_proofs() {
         for decimal in long_decimals(&read(&page)) {
             count += 1;
             let found: Vec<usize> = (0..constants.len()).filter(|&k| is_of(&decimal, constants[k])).collect();
-            found.iter().for_each(|&k| used[k] = true);
+            for &k in &found {
+                used[k] = true;
+            }
             if found.is_empty() && !MEASURED.contains(&&*decimal) {
                 unknown.push(format!("{}: {decimal}", page.display()));
             }

@@ -87,6 +87,15 @@ if wanted limit_certify.py; then
     fi
 fi
 
+if wanted decimals.py; then
+    if python3 -c 'import flint' 2> /dev/null; then
+        proofs/decimals.py | diff - proofs/decimals.txt > "$output" 2>&1
+        verdict decimals.py $?
+    else
+        echo "skipped decimals.py: needs python-flint"
+    fi
+fi
+
 if wanted source; then
     ${SOURCE_TEST:-cargo test --quiet --test proofs} > "$output" 2>&1
     verdict source $?

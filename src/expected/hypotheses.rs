@@ -61,7 +61,7 @@ impl<T: Real> ExpectedMap<T> {
     ///
     /// A cell counts as observed if its exact mean is not 1/2, even where the float nearest to it is. Entropy and
     /// information of a cell are those of the exact mean within `2^-63` bits, whatever the format, so that EMMI is
-    /// the nearest float of the exact one or within `2^-63` bits of being so (proved,
+    /// within half an ulp and `2^-63` bits of the exact one (proved,
     /// [`expected`](crate::book::expected)).
     pub fn tally(&self) -> &Tally<T> {
         &self.tally

@@ -119,7 +119,7 @@ impl<M: InverseSensorModel> CartesianRoom<M> {
     }
 
     /// Computes entropy, information and counts over all cells (Eqs. 2 to 4) without the map: the bits of the tally of
-    /// [`map`](Self::map).
+    /// [`map`](Self::map), within 1.5 ulp of those of its occupancies.
     ///
     /// Mirror images of a cell are counted at once, as are the cells of the model's
     /// [plateau](InverseSensorModel::plateau). With offsets of 0 or 1/2, one cell in eight is evaluated.

@@ -119,14 +119,15 @@ impl<T: Real> InformationSum<T> {
     }
 
     /// Returns `I(m)`, Eq. 3, in bits: the exact sum of the correctly rounded information of the cells, rounded once to
-    /// nearest.
+    /// nearest, within 1.5 ulp of the exact information, as [`Tally::information`].
     pub fn total(&self) -> T {
         // One rounding, of the exact sum.
         self.sum.value()
     }
 
     /// Returns the mean information `I(m) / N_obs`, Eq. 4, in bits per observed cell: the exact quotient of that sum,
-    /// rounded once to nearest; 0 if no cell is observed. It has the bits of [`Tally::mean_information`].
+    /// rounded once to nearest; 0 if no cell is observed. It has the bits of [`Tally::mean_information`], within 1.5 ulp
+    /// of the exact mean information.
     pub fn mean(&self) -> T {
         // One rounding, of the exact quotient: sums.md, theorem (exact sums).
         self.sum.mean(self.observed)

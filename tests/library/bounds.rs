@@ -21,10 +21,10 @@ fn rooms() -> impl Strategy<Value = (f64, f64, f64)> {
 }
 
 /// What a bound allows, and the error of the grid.
-struct Outcome {
-    error: f64,
-    bound: f64,
-    with_count: f64,
+pub(crate) struct Outcome {
+    pub(crate) error: f64,
+    pub(crate) bound: f64,
+    pub(crate) with_count: f64,
 }
 
 impl Outcome {
@@ -35,31 +35,38 @@ impl Outcome {
     }
 }
 
-/// The polar and the Cartesian grid of one room.
-fn outcomes<T: Real>(z: T, sigma: T, h: T, offsets: [T; 2]) -> Result<[Outcome; 2], Error> {
-    let sensor = GaussianSensor::new(z, sigma)?;
+/// A room as these bounds see it: its sensor, and the limit of a grid of it.
+fn sensor<T: Real>(z: T, sigma: T, weight: Weight) -> Result<(GaussianSensor<T>, f64), Error> {
     // An ulp or two of f64 off, with the difference: below the rounding that the bound allows for.
     let wide = GaussianSensor::new(z.widen(), sigma.widen())?;
-    let outcome = |mean: T, weight: Weight, bound: T, with_count: T| Outcome {
-        error: (mean.widen() - closed_form(&wide, weight)).abs(),
-        bound: bound.widen(),
-        with_count: with_count.widen(),
-    };
+    Ok((GaussianSensor::new(z, sigma)?, closed_form(&wide, weight)))
+}
+
+/// The polar map of a room.
+pub(crate) fn polar<T: Real>(z: T, sigma: T, h: T) -> Result<Outcome, Error> {
+    let (sensor, limit) = sensor(z, sigma, Weight::Radial)?;
     let tally = PolarRoom::new(sensor, h)?.tally()?;
-    let polar = outcome(
-        tally.mean_information(),
-        Weight::Radial,
-        bounds::polar(&sensor, h)?,
-        bounds::polar_with_count(&sensor, h, tally.observed())?,
-    );
+    Ok(Outcome {
+        error: (tally.mean_information().widen() - limit).abs(),
+        bound: bounds::polar(&sensor, h)?.widen(),
+        with_count: bounds::polar_with_count(&sensor, h, tally.observed())?.widen(),
+    })
+}
+
+/// The Cartesian grid of a room.
+pub(crate) fn cartesian<T: Real>(z: T, sigma: T, h: T, offsets: [T; 2]) -> Result<Outcome, Error> {
+    let (sensor, limit) = sensor(z, sigma, Weight::Area)?;
     let tally = CartesianRoom::new(sensor, h, offsets)?.tally()?;
-    let cartesian = outcome(
-        tally.mean_information(),
-        Weight::Area,
-        bounds::cartesian(&sensor, h)?,
-        bounds::cartesian_with_count(&sensor, h, tally.observed())?,
-    );
-    Ok([polar, cartesian])
+    Ok(Outcome {
+        error: (tally.mean_information().widen() - limit).abs(),
+        bound: bounds::cartesian(&sensor, h)?.widen(),
+        with_count: bounds::cartesian_with_count(&sensor, h, tally.observed())?.widen(),
+    })
+}
+
+/// The polar and the Cartesian grid of one room.
+fn outcomes<T: Real>(z: T, sigma: T, h: T, offsets: [T; 2]) -> Result<[Outcome; 2], Error> {
+    Ok([polar(z, sigma, h)?, cartesian(z, sigma, h, offsets)?])
 }
 
 proptest! {

@@ -49,11 +49,11 @@ pub(crate) fn guarantees() -> Vec<Guarantee> {
         cell::log_odds_from_occupancy::<f64> => "cell::log_odds_from_occupancy", 0.5, Proved;
         ExactSum::value::<f64> => "ExactSum::value", 0.5, Proved;
         ExactSum::mean::<f64> => "ExactSum::mean", 0.5, Proved;
-        Tally::<f64>::entropy => "Tally::entropy", 0.5, Proved;
-        Tally::<f64>::information => "Tally::information", 0.5, Proved;
-        Tally::<f64>::mean_information => "Tally::mean_information", 0.5, Proved;
-        InformationSum::<f64>::total => "InformationSum::total", 0.5, Proved;
-        InformationSum::<f64>::mean => "InformationSum::mean", 0.5, Proved;
+        Tally::<f64>::entropy => "Tally::entropy", 1.5, Proved;
+        Tally::<f64>::information => "Tally::information", 1.5, Proved;
+        Tally::<f64>::mean_information => "Tally::mean_information", 1.5, Proved;
+        InformationSum::<f64>::total => "InformationSum::total", 1.5, Proved;
+        InformationSum::<f64>::mean => "InformationSum::mean", 1.5, Proved;
         map::Grid::<map::encoding::Percent>::pooled => "Grid::pooled", 0.5, Proved;
         GaussianSensor::<f64>::occupancy => "GaussianSensor::occupancy", 0.5, Proved;
         GaussianSensor::<f64>::reach => "GaussianSensor::reach", 2.0, Proved;

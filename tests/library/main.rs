@@ -9,6 +9,7 @@ mod elementary;
 mod expected;
 mod fusion;
 mod guarantees;
+mod inequalities;
 mod interval;
 mod limit;
 mod map;

@@ -3,6 +3,7 @@
 
 mod architecture;
 mod book;
+mod decimals;
 mod docstrings;
 mod executed;
 mod imports;

@@ -24,7 +24,7 @@ fn every_row_resolves() {
         // That the link leads to it is checked by `cargo doc`; here, that there is an item of the name shown.
         let item = spans(function).next().unwrap_or_else(|| panic!("{place}: {function}"));
         let name = item.rsplit("::").next().unwrap();
-        let declared = ["fn", "struct", "enum", "mod"].map(|kind| format!("pub {kind} {name}"));
+        let declared = ["fn", "struct", "enum", "mod", "trait"].map(|kind| format!("pub {kind} {name}"));
         assert!(declared.iter().any(|item| code.contains(item)), "{place}: {item}");
         for operation in spans(vectors) {
             assert!(OPERATIONS.iter().any(|known| known.name == operation), "{place}: {operation}");

@@ -99,7 +99,7 @@ impl Measures {
 
     /// Returns their area in square metres, if the side of a cell is known and the area is a number.
     pub fn observed_area(&self, resolution: Option<f64>) -> Option<f64> {
-        resolution.map(|side| self.observed() as f64 * (side * side)).filter(|area| area.is_finite())
+        resolution.map(|side| area(side, self.observed())).filter(|area| area.is_finite())
     }
 
     /// The head of a table's column of mean information.
@@ -189,6 +189,20 @@ fn is_thresholded<T: Real>(tally: &Tally<T>) -> bool {
     certain == *tally
 }
 
+/// Rounds the area of `count` squares once: `count side^2`, from the exact product.
+fn area(side: f64, count: u64) -> f64 {
+    let (significand, exponent) = side.parts();
+    let square = u128::from(significand) * u128::from(significand);
+    let [high, low] = [square >> 64, square & u128::from(u64::MAX)].map(|half| u128::from(count) * half);
+    let (high, low) = (high + (low >> 64), low & u128::from(u64::MAX));
+    // The first 128 bits of both, the last of them set if anything follows, which is how `as` rounds them right.
+    let room = high.leading_zeros().min(64);
+    let follows = (low << room) & u128::from(u64::MAX) != 0;
+    let product = (high << room) | (low >> (64 - room)) | u128::from(follows);
+    let scale = f64::from_parts(1, exponent);
+    product as f64 * f64::from_parts(1, 64 - room as i32) * scale * scale
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -201,6 +215,18 @@ mod tests {
 
     fn why<E: Encoding>(cells: &[E::Stored]) -> Option<NotMeaningful> {
         Measures::of_grid(&grid::<E>(cells)).not_meaningful
+    }
+
+    #[test]
+    fn an_area_is_the_exact_product_rounded_once() {
+        assert_eq!(area(0.05, 21477), 53.6925); // of two roundings: 53.69250000000001
+        assert_eq!([area(0.25, 0), area(1.5, 3), area(1e200, 1)], [0.0, 6.75, f64::INFINITY]);
+        // (2^52 + 1)^2 (2^64 - 1) 2^-104: bits to both ends of the product.
+        let side = 1.0_f64.next_up();
+        let exact = num_bigint::BigUint::from((1_u64 << 52) + 1).pow(2) * u64::MAX;
+        let above = exact >> (168 - 60); // of 169 bits, the first 61
+        let nearest = u64::try_from(above).unwrap() as f64 * 16.0;
+        assert_eq!(area(side, u64::MAX), nearest);
     }
 
     #[test]

@@ -126,8 +126,7 @@ impl Emmi {
     }
 
     fn observed_area(&self) -> Option<f64> {
-        let area = self.resolution.map(|side| self.expected.measures.observed() as f64 * (side * side));
-        area.filter(|area| area.is_finite())
+        self.expected.measures.observed_area(self.resolution)
     }
 
     fn record(&self) -> Record {

@@ -63,13 +63,13 @@ pub(super) fn section() -> Result<Section, Failure> {
     let enclosed = enclosed.into_iter().collect::<Result<Vec<bool>, _>>()?;
     let claims = vec![
         depends()?,
-        Claim::corrected(
+        Claim::new(
             "Section II, Eq. 7",
             "The limit has no analytical primitive; numerical integration gives its value.",
             enclosed.iter().all(|&inside| inside),
             format!(
-                "there is a closed form, with a dilogarithm and a series of error functions: {} by it, inside the rigorous \
-                 enclosure of the integral",
+                "{}, in the rigorous enclosure by numerical integration; no primitive is known here either, but the integral \
+                 over the whole beam is a series of error functions, which gave this number",
                 polar.limit
             ),
         ),

@@ -1,0 +1,98 @@
+//! `vectors/judge.py`, the verdict without Rust: it says of ports what `meaninfo check` says.
+
+mod common;
+
+use common::*;
+use std::fs;
+use std::process::{Command, Output};
+
+const JUDGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../vectors/judge.py");
+
+/// Two logarithms as people write them, in plain Python: a port of the cells, and functions of single operations.
+const FAULTY: &str = r#"
+import json, math, sys
+
+def entropy(p):
+    if not 0 <= p <= 1:
+        raise ValueError
+    return sum(-q * math.log2(q) for q in (p, 1 - p) if q > 0)
+
+def observed(cells):
+    if not all(0 <= p <= 1 for p in cells):
+        return math.nan
+    return sum(p != 0.5 for p in cells)
+
+def answer(run):
+    try:
+        h = entropy(float.fromhex(run["args"]["p"]))
+    except ValueError:
+        return {"error": "domain"}
+    return {"result": (h if run["op"] == "cell.entropy" else 1 - h).hex()}
+
+if __name__ == "__main__":
+    ops = ["cell.entropy", "cell.information"]
+    hello = {"protocol": 1, "name": "two logarithms", "language": "Python", "version": "1", "formats": ["f64"], "ops": ops}
+    for line in sys.stdin:
+        request = json.loads(line)
+        if request["cmd"] == "stop":
+            break
+        reply = hello if request["cmd"] == "start" else {"seq": request["seq"], **answer(request)}
+        print(json.dumps(reply), flush=True)
+"#;
+
+/// Runs the judge; `None`, and a note, where there is no `python3`.
+fn judge(arguments: &[&str]) -> Option<Output> {
+    match Command::new("python3").arg(JUDGE).args(arguments).output() {
+        Ok(output) => Some(output),
+        Err(error) => {
+            println!("skipped: python3: {error}");
+            None
+        }
+    }
+}
+
+fn last_line(output: &[u8]) -> &str {
+    text(output).lines().last().unwrap_or_default()
+}
+
+#[test]
+fn the_library_as_a_port_is_right() {
+    let meaninfo = meaninfo().get_program().to_str().unwrap().to_owned();
+    let Some(output) = judge(&["--", &meaninfo, "port"]) else { return };
+    assert_eq!((output.status.code(), text(&output.stderr)), (Some(0), ""), "{}", text(&output.stdout));
+    assert_eq!(last_line(&output.stdout), "17376 passed, 0 failed, 0 skipped");
+}
+
+#[test]
+fn a_faulty_port_is_wrong_where_the_check_finds_it_wrong() {
+    let folder = Folder::new();
+    let port = folder.text_path("port.py");
+    fs::write(&port, FAULTY).unwrap();
+    for ops in ["cell.entropy", "cell.information", "cell.*"] {
+        let Some(output) = judge(&["--ops", ops, "python3", &port]) else { return };
+        assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
+        let check = meaninfo().args(["check", "--ops", ops, "--", "python3", &port]).output().unwrap();
+        assert_eq!(last_line(&output.stdout), last_line(&check.stdout), "{ops}");
+    }
+    // A port that ends, or prints something else.
+    for command in [&["python3", "-c", "print('ready')"][..], &["python3", "-c", "pass"]] {
+        let Some(output) = judge(command) else { return };
+        assert_eq!(output.status.code(), Some(2));
+        assert!(text(&output.stderr).starts_with("judge.py: no answer"), "{}", text(&output.stderr));
+    }
+}
+
+#[test]
+fn functions_are_judged() {
+    let folder = Folder::new();
+    let file = folder.text_path("functions.py");
+    fs::write(&file, FAULTY).unwrap();
+    let call = |op, name: &str| judge(&["--ops", op, "--call", &format!("{file}:{name}")]);
+    let Some(output) = call("map.observed", "observed") else { return };
+    assert_eq!(last_line(&output.stdout), "149 passed, 0 failed, 149 skipped", "{}", text(&output.stderr));
+    let output = call("cell.entropy", "entropy").unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert!(text(&output.stdout).contains("    entropy/f64/"), "{}", text(&output.stdout));
+    let output = judge(&["--ops", "cell.*", "--call", &format!("{file}:entropy")]).unwrap();
+    assert_eq!(output.status.code(), Some(2));
+}

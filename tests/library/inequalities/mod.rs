@@ -1,0 +1,104 @@
+//! Every inequality of the book, and a search for points at which it does not hold: at random, then by small steps from
+//! the worst. A test for each, named after its statement, searches for a moment; longer, with the ratios printed:
+//!
+//! ```text
+//! cargo test --release -p mean-information --test library inequalities -- --ignored --nocapture
+//! ```
+
+mod cells;
+mod circles;
+mod integrals;
+mod kernels;
+mod rooms;
+mod search;
+mod withdrawn;
+
+use search::Inequality;
+use std::collections::BTreeSet;
+use std::fs;
+
+/// How many random points a short search tries, and how many steps it takes from each of the best.
+const POINTS: usize = 200;
+const STEPS: usize = 100;
+
+/// The same of a long one.
+const LONG: [usize; 2] = [4000, 1000];
+
+fn all() -> impl Iterator<Item = &'static Inequality> {
+    [cells::ALL, circles::ALL, integrals::ALL, kernels::ALL, rooms::ALL].into_iter().flatten()
+}
+
+/// The statements that no search at points can try, and why.
+const ELSEWHERE: [(&str, &str, &str); 12] = [
+    ("cell", "Theorem (no ties)", "no inequality"),
+    ("limit", "Theorem (limits)", "a limit; how near, the theorem on grids says"),
+    ("limit", "Proposition (many scans)", "an order of magnitude; the next term is asserted in the chapter"),
+    ("sums", "Theorem (exact sums)", "an equality, bit for bit: tests/library/tally.rs"),
+    (
+        "sums",
+        "Theorem (blocks)",
+        "an equality, bit for bit: tests/library/tally.rs, every f32 in proofs/RESULTS.md",
+    ),
+    ("rounding", "Lemma (ties)", "no inequality"),
+    ("rounding", "Lemma (Horner)", "machine-checked: proofs/*.gappa"),
+    ("rounding", "Lemma (series)", "below what floats show: proofs/constants.sollya"),
+    ("rounding", "Lemma (middle)", "an equality"),
+    ("rounding", "Lemma (eight ln 2)", "of one number, asserted in the chapter"),
+    ("rounding", "Lemma (ranges)", "of monotone functions at the ends, asserted in the chapter"),
+    ("integration", "Lemma (128 bits)", "of numbers that are not public: src/interval/wide.rs has the tests"),
+];
+
+/// The theorems, lemmas, propositions and corollaries of the chapters.
+fn stated() -> BTreeSet<(String, String)> {
+    let docs = concat!(env!("CARGO_MANIFEST_DIR"), "/docs");
+    let mut stated = BTreeSet::new();
+    for entry in fs::read_dir(docs).expect("the chapters") {
+        let path = entry.expect("a file").path();
+        if path.extension().is_none_or(|extension| extension != "md") {
+            continue;
+        }
+        let chapter = path.file_stem().and_then(|stem| stem.to_str()).expect("a name").to_owned();
+        for line in fs::read_to_string(&path).expect("text").lines() {
+            let Some((name, _)) = line.strip_prefix("**").and_then(|bold| bold.split_once(".**")) else {
+                continue;
+            };
+            if ["Theorem (", "Lemma (", "Proposition (", "Corollary ("]
+                .iter()
+                .any(|kind| name.starts_with(kind))
+            {
+                stated.insert((chapter.clone(), name.to_owned()));
+            }
+        }
+    }
+    stated
+}
+
+#[test]
+fn every_statement_of_the_book_is_here() {
+    let searched = all().map(|inequality| inequality.statement);
+    let elsewhere = ELSEWHERE.iter().map(|&(chapter, name, _)| (chapter, name));
+    let here: BTreeSet<_> =
+        searched.chain(elsewhere).map(|(chapter, name)| (chapter.to_owned(), name.to_owned())).collect();
+    let stated = stated();
+    let missing: Vec<_> = stated.difference(&here).collect();
+    let gone: Vec<_> = here.difference(&stated).collect();
+    assert!(
+        missing.is_empty() && gone.is_empty(),
+        "stated, and not here: {missing:?}; here, and not stated: {gone:?}"
+    );
+    assert!(stated.len() > 40, "{}", stated.len());
+    let both = ELSEWHERE.iter().find(|(chapter, name, _)| all().any(|of| of.statement == (*chapter, *name)));
+    assert_eq!(both, None);
+}
+
+#[test]
+#[ignore = "takes minutes, and prints how much of each bound is used"]
+fn long_search() {
+    println!("largest   tried  inequality");
+    for inequality in all() {
+        let found = inequality.assert_holds(LONG[0], LONG[1]);
+        let (chapter, name) = inequality.statement;
+        let test = inequality.test.rsplit("::").next().unwrap_or_default();
+        println!("{:.5} {:>7}  {chapter}: {name}; {test}, at {:.4?}", found.largest, found.tried, found.at);
+    }
+}

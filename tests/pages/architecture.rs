@@ -106,7 +106,8 @@ pub(crate) fn without_tests(text: &str) -> String {
 /// The modules at the root of the crate that the code of a module uses, by `crate::` or by enough of `super::`.
 fn used<'a>(code: &'a str, own: &[&str]) -> Vec<&'a str> {
     let begins = |&(at, _): &(usize, &str)| {
-        !code[..at].ends_with(|c: char| c.is_alphanumeric() || "_$".contains(c)) && !code[..at].ends_with("super::")
+        !code[..at].ends_with(|c: char| c.is_alphanumeric() || "_$".contains(c))
+            && !code[..at].ends_with("super::")
     };
     let starts = code.match_indices("crate::").chain(code.match_indices("super::")).filter(begins);
     let from_root = |path: Vec<&'a str>| {

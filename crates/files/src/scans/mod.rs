@@ -17,7 +17,9 @@
 pub mod carmen;
 mod log;
 mod mount;
+mod options;
 mod range_scan;
 
-pub use log::{Frame, RecordedTrajectory, ScanLog, ScanOptions, TimeField};
+pub use log::{Frame, RecordedTrajectory, ScanLog};
+pub use options::{ScanOptions, TimeField};
 pub use range_scan::{Bearings, NoReturn, RangeScan, Reading};

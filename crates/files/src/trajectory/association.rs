@@ -1,7 +1,7 @@
 //! The poses at the times of scans: the nearest two in time, and what lies between them.
 
-use super::{Trajectory, apart};
-use crate::error::Error;
+use super::poses::Trajectory;
+use crate::error::{Error, ErrorKind};
 use mean_information::scan::Pose;
 use std::f64::consts::TAU;
 
@@ -21,14 +21,14 @@ impl Trajectory {
     /// it is their interpolation by `s = (t - t₀) / (t₁ - t₀)`: of the position, and of the yaw along the shorter way
     /// round. Otherwise, and beyond both ends, it is `None`: nothing is extrapolated.
     pub fn pose_at(&self, time: f64, max_gap: f64) -> Option<Pose> {
-        let after = self.times.partition_point(|&own| own < time);
-        if self.times.get(after) == Some(&time) {
-            return Some(self.poses[after]);
+        let after = self.times().partition_point(|&own| own < time);
+        if self.times().get(after) == Some(&time) {
+            return Some(self.poses()[after]);
         }
         let before = after.checked_sub(1)?;
-        let [start, end] = [*self.times.get(before)?, *self.times.get(after)?];
+        let [start, end] = [*self.times().get(before)?, *self.times().get(after)?];
         let inside = start < time && time < end && end - start <= max_gap;
-        inside.then(|| between(&self.poses[before], &self.poses[after], part(time, start, end)))?
+        inside.then(|| between(&self.poses()[before], &self.poses()[after], part(time, start, end)))?
     }
 
     /// Returns the poses at the times of scans, in seconds, as [`Self::pose_at`].
@@ -61,4 +61,13 @@ fn between(start: &Pose, end: &Pose, part: f64) -> Option<Pose> {
     let turned = |theta: f64| libm::remainder(theta, TAU);
     let turn = turned(turned(end.theta()) - turned(start.theta()));
     Pose::new(mean(x0, x1), mean(y0, y1), start.theta() + part * turn).ok()
+}
+
+/// Creates the error of a log and a trajectory that have no time in common.
+fn apart(log: [f64; 2], own: [f64; 2]) -> Error {
+    let span = |[from, to]: [f64; 2]| format!("{from} to {to} s");
+    let message = format!("the trajectory spans {}, the scans span {}", span(own), span(log));
+    Error::new(ErrorKind::OutOfRange, message)
+        .with_value(span(own))
+        .allowing("; allowed are ", "times in common, on one clock")
 }

@@ -1,7 +1,7 @@
 //! Trajectories as TUM text: `time x y z qx qy qz qw`, as evo reads and writes.
 
+use super::poses::{Trajectory, check_time};
 use super::quaternion::Quaternion;
-use super::{Trajectory, check_time};
 use crate::error::{Error, ErrorKind};
 use crate::text::{Line, Lines};
 use crate::warning::Warning;

@@ -2,7 +2,7 @@
 
 use super::parameters::{Parameters, check_view};
 use crate::error::Error;
-use crate::scans::log::{ScanOptions, TimeField};
+use crate::scans::options::{ScanOptions, TimeField};
 use crate::scans::range_scan::{Bearings, RangeScan};
 use crate::text::{Fields, Line};
 use mean_information::scan::Pose;

@@ -28,9 +28,6 @@ mod parameters;
 mod records;
 mod write;
 
+pub use parameters::MAXIMUM_RANGE;
 pub use records::{Record, Records};
 pub use write::write;
-
-/// The greatest range of an `FLASER` in metres where the log states none: SICK's scanners return 50 m and more, up to
-/// 81.91, where nothing came back.
-pub const MAXIMUM_RANGE: f64 = 50.0;

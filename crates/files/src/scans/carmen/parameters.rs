@@ -1,10 +1,13 @@
 //! The parameters of a log that say how its `FLASER` messages are meant.
 
-use super::MAXIMUM_RANGE;
 use crate::error::Error;
 use crate::scans::range_scan::Bearings;
 use crate::text::Fields;
 use mean_information::scan::Pose;
+
+/// The greatest range of an `FLASER` in metres where the log states none: SICK's scanners return 50 m and more, up to
+/// 81.91, where nothing came back.
+pub const MAXIMUM_RANGE: f64 = 50.0;
 
 /// The parameters seen so far.
 #[derive(Clone, Copy, Debug, Default)]

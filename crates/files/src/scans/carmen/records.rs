@@ -3,8 +3,8 @@
 use super::message::{front_laser, odometry, robot_laser};
 use super::parameters::Parameters;
 use crate::error::{Error, ErrorKind};
-use crate::scans::log::ScanOptions;
 use crate::scans::mount::Mount;
+use crate::scans::options::ScanOptions;
 use crate::scans::range_scan::RangeScan;
 use crate::text::{Line, Lines, shortened};
 use crate::trajectory::check_time;

@@ -1,22 +1,56 @@
-//! The sample map in `maps` is what `meaninfo simulate` makes, and has what a sample should show.
+//! The sample in `maps`, a map, a log and two trajectories, is what `meaninfo simulate` makes, and has what a sample should
+//! show.
 
 mod common;
 
 use common::*;
+use mean_information::scan::ScanMap;
+use mean_information::sensor::SteppedSensor;
+use mean_information_files::scans::{NoReturn, ScanOptions};
+use mean_information_files::{read_scans, read_trajectory};
 use serde_json::Value;
+use std::path::Path;
 
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
 const MAPS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../maps");
 
 /// `cargo run --release -- simulate --out maps/room`; the array is not kept.
 #[test]
-fn the_sample_map_is_made_again_byte_by_byte() {
+fn the_sample_is_made_again_byte_by_byte() {
     let folder = Folder::new();
     stdout(&["simulate", "--out", &folder.text_path("room")]);
-    for file in ["room.yaml", "room.pgm"] {
+    for file in ["room.yaml", "room.pgm", "room.log", "room.true.tum", "room.odometry.tum"] {
         let [made, kept] = [folder.text_path(file), format!("{MAPS}/{file}")].map(read);
         assert!(made == kept, "maps/{file} is not what `meaninfo simulate --out maps/room` makes");
     }
+}
+
+/// Returns the mean information of the map of the sample's scans at the poses of a trajectory.
+fn mean_information_by(trajectory: &str) -> f64 {
+    let path = |file: &str| Path::new(MAPS).join(file);
+    let log = read_scans(&path("room.log"), &ScanOptions::default()).unwrap();
+    let (trajectory, _) = read_trajectory(&path(trajectory)).unwrap();
+    let found = trajectory.at_times(&log.times(), 0.0).unwrap();
+    assert_eq!(found.without_pose, 0);
+    let mut map = ScanMap::<f64>::new(0.05).unwrap();
+    for (record, pose) in log.scans.iter().zip(found.poses.into_iter().flatten()) {
+        let scan = record.scan_from(pose, NoReturn::LeftOut).unwrap().unwrap();
+        map.insert(&scan, |range| SteppedSensor::new(range, 0.05, 0.4, 0.7)).unwrap();
+    }
+    map.tally().mean_information()
+}
+
+/// A drift of a few centimetres costs more of the mean information than the noise of the sensor leaves in doubt.
+#[test]
+fn the_log_tells_the_true_trajectory_from_that_of_the_odometry() {
+    let [truth, odometry] = ["room.true.tum", "room.odometry.tum"].map(mean_information_by);
+    println!("{truth} {odometry}");
+    assert!(truth - odometry > 0.02, "{truth} {odometry}");
+    let size: u64 = ["room.log", "room.true.tum", "room.odometry.tum"]
+        .map(|file| read(format!("{MAPS}/{file}")).len() as u64)
+        .iter()
+        .sum();
+    assert!(size < 300_000, "{size} bytes");
 }
 
 #[test]

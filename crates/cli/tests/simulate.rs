@@ -5,6 +5,8 @@ mod common;
 use common::*;
 use mean_information::room::CartesianRoom;
 use mean_information::sensor::GaussianSensor;
+use mean_information_files::scans::{RangeScan, Reading, ScanOptions};
+use mean_information_files::{read_scans, read_trajectory};
 use serde_json::Value;
 use std::fs;
 
@@ -36,8 +38,9 @@ fn the_result_says_what_was_made() {
     assert_eq!(
         keys(&text, 2),
         [
-            &["map", "image", "array", "room", "drift", "seed", "beams", "range_max_m", "sigma_m", "noise_m"]
-                [..],
+            &["map", "image", "array", "log", "true_trajectory", "odometry_trajectory"][..],
+            &["room", "drift", "seed", "beams", "range_max_m", "sigma_m", "noise_m"],
+            &["scans", "scan_beams", "odometry_drift"],
             &MEASURE_KEYS,
             &["quantisation", "mean_information_of_image", "mean_information_of_image_hex", "poses"],
         ]
@@ -47,7 +50,9 @@ fn the_result_says_what_was_made() {
     assert_twins(&json, 5);
     assert_eq!((&json["room"], &json["seed"], &json["noise_m"]), (&"study".into(), &5.into(), &0.05.into()));
     assert_eq!(json["poses"].as_array().unwrap().len(), 3);
-    assert_eq!(folder.names(), ["map.npy", "map.pgm", "map.yaml"]);
+    let written =
+        ["log", "npy", "odometry.tum", "pgm", "true.tum", "yaml"].map(|ending| format!("map.{ending}"));
+    assert_eq!(folder.names(), written);
     let csv = stdout(&[&arguments[..8], &["csv", "--out", &prefix]].concat());
     assert_eq!(csv.lines().count(), 2);
     let table = stdout(&["simulate", "--poses", "1", "--out", &prefix]);
@@ -110,14 +115,44 @@ fn a_seed_makes_the_same_bytes_and_another_one_others() {
     let make = |name: &str, more: &[&str]| {
         let prefix = folder.text_path(name);
         let json = simulate(&prefix, more);
-        (json, [".pgm", ".npy"].map(|ending| read(prefix.clone() + ending)))
+        let endings = [".pgm", ".npy", ".log", ".true.tum", ".odometry.tum"];
+        (json, endings.map(|ending| read(prefix.clone() + ending)))
     };
     let (json, files) = make("a", &["--seed", "6", "--drift", "0.02"]);
     let (again, same) = make("a", &["--seed", "6", "--drift", "0.02"]);
     assert!(json == again && files == same);
-    assert!(make("b", &["--seed", "7", "--drift", "0.02"]).1 != files);
-    // Without noise nothing is random.
-    assert!(make("b", &["--seed", "7", "--noise", "0"]).1 == make("b", &["--seed", "6", "--noise", "0"]).1);
+    let (_, others) = make("b", &["--seed", "7", "--drift", "0.02"]);
+    // Where the robot was is the same, below the comment.
+    let poses = |file: &[u8]| text(file).lines().skip(1).map(str::to_owned).collect::<Vec<_>>();
+    assert!((0..5).all(|k| files[k] != others[k]) && poses(&files[3]) == poses(&others[3]));
+    // Without noise nothing is random but the drift.
+    let [seventh, sixth] = ["7", "6"].map(|seed| make("b", &["--seed", seed, "--noise", "0"]).1);
+    assert!(seventh[..2] == sixth[..2] && seventh[4] != sixth[4]);
+}
+
+/// The log, read by the readers that everyone's logs are read by: as many scans and beams as were asked for, the poses of
+/// the two files, and what was lost or did not return.
+#[test]
+fn what_was_recorded_is_read_back() {
+    let folder = Folder::new();
+    let prefix = folder.text_path("map");
+    let json =
+        simulate(&prefix, &["--scans", "23", "--scan-beams", "45", "--seed", "4", "--range-max", "3.5"]);
+    let log = read_scans(&folder.path("map.log"), &ScanOptions::default()).unwrap();
+    assert_eq!((log.scans.len(), &log.warnings, log.mount), (23, &vec![], None));
+    for (name, held) in ["true", "odometry"].iter().zip(&log.trajectories) {
+        let file = folder.text_path(&format!("map.{name}.tum"));
+        assert_eq!(json[format!("{name}_trajectory")], file);
+        let (trajectory, warnings) = read_trajectory(file.as_ref()).unwrap();
+        assert_eq!((trajectory.times(), warnings), (held.trajectory.times(), vec![]));
+        for (own, other) in held.trajectory.poses().iter().zip(trajectory.poses()) {
+            assert_eq!(own.position(), other.position());
+            assert!((own.theta() - other.theta()).abs() < 1e-14, "{own:?} {other:?}");
+        }
+    }
+    let readings: Vec<_> = log.scans.iter().flat_map(RangeScan::readings).collect();
+    assert_eq!(readings.len(), 23 * 45);
+    assert!(!readings.contains(&Reading::Invalid) && readings.contains(&Reading::NoReturn));
 }
 
 /// The robot goes where it goes, whatever it believes, and begins where it believes to be.
@@ -207,6 +242,11 @@ fn bad_requests_are_refused_and_nothing_is_written() {
         (&["--beams", "0"], "1..=65536"),
         (&["--poses", "0"], "1..=65536"),
         (&["--poses", "65537"], "1..=65536"),
+        (&["--scans", "0"], "1..=65536"),
+        (&["--scan-beams", "65537"], "1..=65536"),
+        (&["--scans", "60000", "--scan-beams", "60000"], "fewer --scans"),
+        (&["--odometry-drift", "nan"], "0 or a positive"),
+        (&["--odometry-drift", "1e308"], "a smaller --odometry-drift"),
         (&["--seed", "-1"], "-1"),
         (&["--seed", "1.5"], "1.5"),
         (&["--room", "cellar"], "study, corridors, circle"),
@@ -254,6 +294,6 @@ fn all_files_or_none() {
     // With all of it right, a name that yaml must quote.
     let prefix = folder.text_path("it's # a map: 2");
     stdout(&["simulate", "--poses", "1", "--out", &prefix, "--output", &folder.text_path("result")]);
-    assert_eq!(folder.names().len(), 4);
+    assert_eq!(folder.names().len(), 7);
     assert_eq!(measured(&[&(prefix + ".yaml")])["meaningful"], true);
 }

@@ -1,4 +1,5 @@
-//! Occupancy maps as the field stores them, read into grids of [`mean_information`] and written from them.
+//! Occupancy maps, range scans and trajectories as the field stores them, read for [`mean_information`] and written from
+//! it.
 //!
 //! A ROS map of 2 x 2 cells: occupied, unknown, free, and grey 64, which nav2 reads as 75 percent. The information of its
 //! three observed cells is 1, 1 and 0.1887 bits.
@@ -24,7 +25,7 @@
 //! # Ok::<(), mean_information_files::Error>(())
 //! ```
 //!
-//! [`read_map`] takes a path on a disk, [`read_map_from`] any [`Source`] of files. [`read_map_contents`] counts the cells
+//! [`read_scans`] reads a log of range scans, [`read_trajectory`] a trajectory. [`read_map`] takes a path on a disk, [`read_map_from`] any [`Source`] of files. [`read_map_contents`] counts the cells
 //! of an image and keeps none, for who only measures them. Nothing here measures, prints, or knows of a command line.
 //!
 //! A module depends only on those above it:
@@ -42,6 +43,9 @@
 //! | [`ros`] | ROS maps: a yaml file that describes an image |
 //! | [`npy`] | NumPy's arrays |
 //! | [`gridmap`] | MRPT's grid maps |
+//! | `text` | lines of text and their fields |
+//! | [`trajectory`] | [`Trajectory`]: poses by their times; TUM text |
+//! | [`scans`] | [`ScanLog`](scans::ScanLog): logs of range scans, CARMEN's |
 //! | `read` | files by the ending of their names |
 //!
 //! The feature `clap` makes [`Semantics`], [`Mode`] and [`ArrayEncoding`] values of a command line's options.
@@ -55,8 +59,11 @@ pub mod npy;
 mod options;
 mod read;
 pub mod ros;
+pub mod scans;
 mod size;
 mod source;
+mod text;
+pub mod trajectory;
 mod warning;
 
 pub use cells::{Cells, Contents, Counted, Counts, Readable};
@@ -65,9 +72,10 @@ pub use map::Map;
 pub use options::{ArrayEncoding, MAX_CELLS, MAX_COUNTED, Mode, Options, Semantics};
 pub use read::{
     read_map, read_map_contents, read_map_contents_from, read_map_from, read_particles, read_particles_from,
-    read_weights, read_weights_from,
+    read_scans, read_scans_from, read_trajectory, read_trajectory_from, read_weights, read_weights_from,
 };
 pub use source::{Disk, Memory, Opened, Source};
+pub use trajectory::{Association, Trajectory, tum};
 pub use warning::Warning;
 
 /// The README, whose example is compiled.

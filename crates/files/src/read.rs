@@ -7,7 +7,10 @@ use crate::map::Map;
 use crate::npy::{self, MapsVisitor};
 use crate::options::{Mode, Options};
 use crate::ros::{self, Sink};
+use crate::scans::{ScanLog, ScanOptions};
 use crate::source::{Disk, ENDINGS, Opened, Source};
+use crate::trajectory::{Trajectory, tum};
+use crate::warning::Warning;
 use std::path::Path;
 
 /// Reads the map at `path` on the disk: as [`read_map_from`].
@@ -119,4 +122,46 @@ pub fn read_weights(path: &Path, options: &Options) -> Result<Vec<f64>, Error> {
 pub fn read_weights_from(source: &impl Source, path: &Path, options: &Options) -> Result<Vec<f64>, Error> {
     let read = |file: Opened<_>| npy::read_weights(file.input, file.length, options);
     source.open(path).and_then(read).map_err(|error| error.in_file(path))
+}
+
+/// Reads the log of range scans at `path` on the disk: as [`read_scans_from`].
+///
+/// # Errors
+/// As [`read_scans_from`].
+pub fn read_scans(path: &Path, options: &ScanOptions) -> Result<ScanLog, Error> {
+    read_scans_from(&Disk, path, options)
+}
+
+/// Reads the log of range scans at `path` of `source`, by its file name ending: a CARMEN log, `.log` or `.clf`.
+///
+/// # Errors
+/// An [`Error`] naming the file, the line, what is wrong and what is allowed: as [`ScanLog::read_carmen`].
+pub fn read_scans_from(source: &impl Source, path: &Path, options: &ScanOptions) -> Result<ScanLog, Error> {
+    let read = || {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+        if ![".log", ".clf"].iter().any(|&ending| name.ends_with(ending)) {
+            let refused = Error::new(ErrorKind::Unsupported, "is no log of scans by its name");
+            return Err(refused.with_value(name).allowing("; allowed are ", "CARMEN logs: .log and .clf"));
+        }
+        ScanLog::read_carmen(source.open(path)?.input, options)
+    };
+    let mut log = read().map_err(|error: Error| error.in_file(path))?;
+    log.files.push(path.to_owned());
+    Ok(log)
+}
+
+/// Reads the trajectory at `path` on the disk: as [`read_trajectory_from`].
+///
+/// # Errors
+/// As [`read_trajectory_from`].
+pub fn read_trajectory(path: &Path) -> Result<(Trajectory, Vec<Warning>), Error> {
+    read_trajectory_from(&Disk, path)
+}
+
+/// Reads the trajectory at `path` of `source`: TUM text, whatever the file's name.
+///
+/// # Errors
+/// An [`Error`] naming the file: as [`tum::read`].
+pub fn read_trajectory_from(source: &impl Source, path: &Path) -> Result<(Trajectory, Vec<Warning>), Error> {
+    source.open(path).and_then(|file| tum::read(file.input)).map_err(|error| error.in_file(path))
 }

@@ -59,6 +59,30 @@ pub enum Warning {
     },
     /// The indices of a palette are read as grey levels, as in ROS 1's loader.
     PaletteIndices,
+    /// Lines of a log are not understood and passed over.
+    LinesNotUnderstood {
+        /// The number of lines.
+        lines: u64,
+        /// The first words of the lines, each with its number of lines; only the first eight words are kept.
+        words: Vec<(String, u64)>,
+    },
+    /// Scans have the time of the scan before and are passed over.
+    ScansAtOneTime {
+        /// The number of scans passed over.
+        count: u64,
+    },
+    /// The last line of a text is cut short and left out.
+    CutInLine {
+        /// The line, from 1.
+        line: u64,
+    },
+    /// Poses of a trajectory are pitched or rolled by more than a degree, which the plane drops.
+    TiltDropped {
+        /// The number of poses.
+        count: u64,
+        /// The greatest angle between the robot's z axis and the world's, in degrees.
+        greatest_degrees: f64,
+    },
     /// Bytes 127 and 128 of an MRPT map before version 3 are read as unknown, as MRPT does.
     HalvesReadAsUnknown {
         /// The number of cells.
@@ -107,6 +131,23 @@ impl fmt::Display for Warning {
             Self::PaletteIndices => write!(
                 f,
                 "the image has a palette: as in ROS 1's map_server, its indices are read as grey levels"
+            ),
+            Self::LinesNotUnderstood { lines, ref words } => {
+                let are = if lines == 1 { "1 line is".to_owned() } else { format!("{lines} lines are") };
+                write!(f, "{are} not understood and passed over, by the first word: ")?;
+                let listed: Vec<_> = words.iter().map(|(word, count)| format!("{word} ({count})")).collect();
+                f.write_str(&listed.join(", "))?;
+                let others = lines - words.iter().map(|(_, count)| count).sum::<u64>();
+                if others > 0 { write!(f, " and others ({others})") } else { Ok(()) }
+            }
+            Self::ScansAtOneTime { count } => {
+                write!(f, "{count} scans have the time of the scan before and are passed over")
+            }
+            Self::CutInLine { line } => write!(f, "line {line}, the last, is cut short and left out"),
+            Self::TiltDropped { count, greatest_degrees } => write!(
+                f,
+                "{count} poses are pitched or rolled by more than 1 degree, up to {greatest_degrees:.1}: dropped, as \
+                 scans lie in the plane"
             ),
             Self::HalvesReadAsUnknown { count, version } => write!(
                 f,

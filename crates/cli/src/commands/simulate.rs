@@ -6,12 +6,13 @@ use crate::measures::Measures;
 use crate::metres::positive;
 use crate::output::{Files, Number, Record, Report, Value, Writing, short, table, wrapped};
 use crate::progress::Progress;
-use crate::simulation::{self, Journey, RoomName, Scanner};
+use crate::simulation::{self, Journey, Recording, Room, RoomName, Scanner};
 use clap::Args;
 use mean_information::map::Grid;
 use mean_information::map::encoding::Probability;
 use mean_information::scan::{Pose, ScanMap};
-use mean_information_files::{Map, Options, Semantics, npy, ros};
+use mean_information_files::scans::carmen;
+use mean_information_files::{Map, Options, Semantics, npy, ros, tum};
 use std::ffi::OsString;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
@@ -22,7 +23,9 @@ const MOST_READINGS: f64 = (1_u64 << 32) as f64;
 /// The arguments of `meaninfo simulate`.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// Write the map to PREFIX.yaml and PREFIX.pgm (ROS, mode scale) and to PREFIX.npy (probabilities, float64).
+    /// Write the map to PREFIX.yaml and PREFIX.pgm (ROS, mode scale) and to PREFIX.npy (probabilities, float64), what the
+    /// robot recorded on a longer drive to PREFIX.log (CARMEN), and its trajectories to PREFIX.true.tum and
+    /// PREFIX.odometry.tum.
     #[arg(long, value_name = "PREFIX")]
     out: PathBuf,
     /// Where the robot is.
@@ -40,6 +43,8 @@ pub struct Arguments {
     seed: u64,
     #[command(flatten)]
     sensor: Sensor,
+    #[command(flatten)]
+    log: Log,
     /// The side of a cell in metres.
     #[arg(long, value_name = "METRES", default_value_t = 0.05, value_parser = positive::<f64>)]
     resolution: f64,
@@ -67,6 +72,23 @@ struct Sensor {
     noise: Option<f64>,
 }
 
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Log")]
+struct Log {
+    /// How many scans it has, at equal distances along the robot's way to its end and back.
+    #[arg(long, value_name = "N", default_value_t = 150, value_parser = clap::value_parser!(u32).range(1..=1 << 16))]
+    scans: u32,
+    /// How many beams each has, all round.
+    #[arg(long, value_name = "N", default_value_t = 180, value_parser = clap::value_parser!(u32).range(1..=1 << 16))]
+    scan_beams: u32,
+    /// The drift of the odometry in it, as of --drift.
+    #[arg(long, value_name = "D", default_value_t = 0.02, value_parser = not_negative)]
+    odometry_drift: f64,
+}
+
+/// The most ranges of a log: half a gigabyte of text.
+const MOST_RANGES: u64 = 1 << 26;
+
 fn not_negative(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(x) if (0.0..f64::INFINITY).contains(&x) => Ok(x),
@@ -78,14 +100,17 @@ impl Arguments {
     pub(super) fn run(&self) -> Result<Status, Failure> {
         let [yaml, image, array] = [".yaml", ".pgm", ".npy"].map(|ending| self.file(ending));
         let (yaml, image, array) = (yaml?, image?, array?);
+        let [log, truth, odometry] = [".log", ".true.tum", ".odometry.tum"].map(|ending| self.file(ending));
+        let recorded = [log?, truth?, odometry?];
         let room = self.room.room();
         let poses = self.poses.map_or(room.poses, |poses| poses as usize);
         self.check_work(poses)?;
         let scanner =
             Scanner { beams: self.sensor.beams, maximum_range: self.sensor.range_max, noise: self.noise() };
         let journey = Journey::through(&room, &scanner, poses, self.drift, self.seed)?;
+        let recording = self.record(&room)?;
         let map = self.map(&journey)?;
-        let files = Named { yaml: &yaml, image: &image, array: &array };
+        let files = Named { yaml: &yaml, image: &image, array: &array, recorded: &recorded };
         let (saved, read) = files.save(&map, &self.comment())?;
 
         let report = Simulated {
@@ -101,8 +126,39 @@ impl Arguments {
         let mut cells = Vec::new();
         npy::write(&map, &mut cells).map_err(|error| error.in_file(&array))?;
         outputs.add(&array, cells);
+        for (path, text) in recorded.iter().zip(self.texts(&recording)?) {
+            outputs.add(path, text);
+        }
         self.writing.write(&report, outputs)?;
         Ok(Status::Done)
+    }
+
+    /// Records the drive of the log.
+    fn record(&self, room: &Room) -> Result<Recording, Failure> {
+        let Log { scans, scan_beams, odometry_drift } = self.log;
+        let ranges = u64::from(scans) * u64::from(scan_beams);
+        if ranges > MOST_RANGES {
+            return Err(Failure::Usage(format!(
+                "{scans} scans of {scan_beams} beams have {ranges} ranges, allowed are {MOST_RANGES}; give fewer --scans or \
+                 --scan-beams"
+            )));
+        }
+        let scanner =
+            Scanner { beams: scan_beams, maximum_range: self.sensor.range_max, noise: self.noise() };
+        let recording = Recording::through(room, &scanner, scans as usize, odometry_drift, self.seed);
+        recording.map_err(|error| Failure::Usage(format!("{error}; give a smaller --odometry-drift")))
+    }
+
+    /// Returns the texts of a recording: its log, the true poses, those by odometry.
+    fn texts(&self, recording: &Recording) -> Result<[Vec<u8>; 3], Failure> {
+        let mut texts: [Vec<u8>; 3] = Default::default();
+        let [log, truth, odometry] = &mut texts;
+        let made = self.log_comment();
+        carmen::write(&recording.scans, &format!("{made}\nlaser: true poses; robot: by odometry"), log)
+            .and_then(|()| tum::write(&recording.truth, &format!("{made}\ntrue poses"), truth))
+            .and_then(|()| tum::write(&recording.odometry, &format!("{made}\nposes by odometry"), odometry))
+            .map_err(|error| Failure::Usage(error.to_string()))?;
+        Ok(texts)
     }
 
     /// The map of the scans at the believed poses.
@@ -173,14 +229,29 @@ impl Arguments {
             self.resolution
         )
     }
+
+    /// Returns a comment with the command that makes the recording again.
+    fn log_comment(&self) -> String {
+        let Log { scans, scan_beams, odometry_drift } = self.log;
+        format!(
+            "Made by: meaninfo simulate --room {} --seed {} --range-max {} --noise {} --scans {scans} --scan-beams \
+             {scan_beams} --odometry-drift {odometry_drift}",
+            self.room.name(),
+            self.seed,
+            self.sensor.range_max,
+            self.noise()
+        )
+    }
 }
 
-/// The files of a map.
+/// The files of a map and of a recording.
 #[derive(Clone, Copy)]
 struct Named<'a> {
     yaml: &'a Path,
     image: &'a Path,
     array: &'a Path,
+    /// The log, the true trajectory, the one by odometry.
+    recorded: &'a [PathBuf; 3],
 }
 
 /// The bytes of the two files of a ROS map.
@@ -220,12 +291,16 @@ struct Simulated<'a> {
 
 impl Simulated<'_> {
     fn record(&self) -> Record {
-        let Arguments { room, drift, seed, sensor, resolution, .. } = self.arguments;
+        let Arguments { room, drift, seed, sensor, log: recorded, resolution, .. } = self.arguments;
+        let [log, truth, odometry] = self.files.recorded;
         let text = |path: &Path| Value::Text(path.display().to_string());
         let mut entries = vec![
             ("map", text(self.files.yaml)),
             ("image", text(self.files.image)),
             ("array", text(self.files.array)),
+            ("log", text(log)),
+            ("true_trajectory", text(truth)),
+            ("odometry_trajectory", text(odometry)),
             ("room", Value::Text(room.name().to_owned())),
             ("drift", Value::Given(Some(*drift))),
             ("seed", Value::Count(*seed)),
@@ -233,6 +308,9 @@ impl Simulated<'_> {
             ("range_max_m", Value::Given(Some(sensor.range_max))),
             ("sigma_m", Value::Given(Some(sensor.sigma))),
             ("noise_m", Value::Given(Some(self.arguments.noise()))),
+            ("scans", Value::Count(recorded.scans.into())),
+            ("scan_beams", Value::Count(recorded.scan_beams.into())),
+            ("odometry_drift", Value::Given(Some(recorded.odometry_drift))),
         ];
         entries.extend(self.measures.entries(Some(*resolution)));
         entries.extend([

@@ -2,10 +2,11 @@
 //!
 //! The robot stops at places along its [route](Room::route), and its [`Scanner`] looks round: rays to the walls, with
 //! Gaussian noise from a seeded generator. The scans are inserted into a map at the poses where the robot believes it
-//! is, which [drift](trajectory::drifted) from the true ones. The same numbers give the same bits on every platform.
+//! is, which [drift](trajectory::drifted) from the true ones. A [`Recording`] is a longer drive, as a log has it. The same numbers give the same bits on every platform.
 
 mod filter;
 mod random;
+mod recording;
 mod rooms;
 mod scanner;
 mod shapes;
@@ -13,6 +14,7 @@ pub mod trajectory;
 
 pub use filter::{Filter, Settings};
 pub use random::Random;
+pub use recording::Recording;
 pub use rooms::{Room, RoomName};
 pub use scanner::{Readings, Scanner};
 pub use shapes::{Point, Shape};

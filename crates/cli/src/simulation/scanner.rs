@@ -32,17 +32,31 @@ impl Scanner {
     /// # Errors
     /// Never for the bearings of a scanner.
     pub fn look(&self, room: &Room, pose: &Pose, random: &mut Random) -> Result<Readings, Error> {
-        let mut beams = Vec::with_capacity(self.beams as usize);
-        for k in 0..self.beams {
-            let bearing = TAU * f64::from(k) / f64::from(self.beams);
-            let exact = room.range(pose.position(), Direction::new(&[pose.theta(), bearing])?);
+        let ranges = self.ranges(room, pose, random)?;
+        let beams = ranges.into_iter().zip(0..).filter(|&(range, _)| range > 0.0).map(|(range, k)| Beam {
+            bearing: self.bearing(k),
+            range: (range <= self.maximum_range).then_some(range),
+        });
+        Ok(Readings { maximum_range: self.maximum_range, beams: beams.collect() })
+    }
+
+    /// Returns what its beams measure from `pose`: the distance to the wall with noise, of any sign, or infinity where none
+    /// is within the maximum range.
+    ///
+    /// # Errors
+    /// Never for the bearings of a scanner.
+    pub fn ranges(&self, room: &Room, pose: &Pose, random: &mut Random) -> Result<Vec<f64>, Error> {
+        let mut measure = |k| {
+            let exact = room.range(pose.position(), Direction::new(&[pose.theta(), self.bearing(k)])?);
             let range = exact.filter(|&range| range <= self.maximum_range);
-            let range = range.map(|range| range + self.noise * random.normal());
-            if range.is_none_or(|range| range > 0.0) {
-                beams.push(Beam { bearing, range: range.filter(|&range| range <= self.maximum_range) });
-            }
-        }
-        Ok(Readings { maximum_range: self.maximum_range, beams })
+            Ok(range.map_or(f64::INFINITY, |range| range + self.noise * random.normal()))
+        };
+        (0..self.beams).map(&mut measure).collect()
+    }
+
+    /// Returns the bearing of a beam, in radians.
+    fn bearing(&self, beam: u32) -> f64 {
+        TAU * f64::from(beam) / f64::from(self.beams)
     }
 }
 

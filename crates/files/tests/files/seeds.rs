@@ -7,12 +7,14 @@ use std::path::{Path, PathBuf};
 
 type Target = (&'static str, fn(&[u8]), fn() -> Vec<(&'static str, Vec<u8>)>);
 
-const TARGETS: [Target; 11] = [
+const TARGETS: [Target; 13] = [
     ("yaml", properties::yaml, yaml_seeds),
     ("pgm", properties::pgm, pgm_seeds),
     ("png", properties::png, png_seeds),
     ("npy", properties::npy, npy_seeds),
     ("gridmap", properties::gridmap, gridmap_seeds),
+    ("carmen_log", properties::carmen_log, carmen_log_seeds),
+    ("trajectory", properties::trajectory, trajectory_seeds),
     ("grid", properties::grid, grid_seeds),
     ("room", properties::room, room_seeds),
     ("integrate", properties::integrate, integrate_seeds),
@@ -130,6 +132,36 @@ fn gridmap_seeds() -> Vec<(&'static str, Vec<u8>)> {
         ("zipped", gzip(&small)),
         ("cut", small[..57].to_vec()),
     ]
+}
+
+fn carmen_log_seeds() -> Vec<(&'static str, Vec<u8>)> {
+    let front = format!("FLASER 180{} 1 2 0.5 1.5 2 0.25 976052890.25 host 0.5\n", " 2.5".repeat(180));
+    let robot =
+        "ROBOTLASER1 0 -0.5 1 0.5 20 0.01 0 3 2.25 nan -inf 2 7 8 3.25 2 0 3 2 0 0 0 0 0 0 7.5 host 0.75\n";
+    let parameters = "PARAM laser_front_laser_resolution 45\nPARAM robot_front_laser_max 40\n\
+                      PARAM robot_frontlaser_offset 0.25\nODOM 1 2 0.5 0 0 0 2.25 host 0.5\n\
+                      FLASER 3 2.5 81.83 0 1 2 0.5 1.5 2 0.25 2.5 host 0.75\nHELLO\nFLASER 3 2.5";
+    [
+        ("front_laser", front),
+        ("robot_laser", [robot, &robot.replace("7.5 host", "8.5 host")].concat()),
+        ("parameters", parameters.to_owned()),
+        ("claims_more", robot.replace("0 3 2.25", "0 18446744073709551615 2.25")),
+        ("no_beam", "FLASER 0 1 2 0.5 1.5 2 0.25 2.5 host 0.75\n".to_owned()),
+    ]
+    .map(|(name, text)| (name, text.into_bytes()))
+    .to_vec()
+}
+
+fn trajectory_seeds() -> Vec<(&'static str, Vec<u8>)> {
+    [
+        ("plain", "# time x y z qx qy qz qw\n1.5 2 3 0 0 0 0.6 0.8\n2.5 2 4 0 0 0 -0.6 0.8\n"),
+        ("tilted", "1.5\t2 3 0.5 0.6 0 0 0.8\r\n\r\n2.5 2 3 0 0 0 1 0"),
+        ("unsorted", "1.5 2 3 0 0 0 0 1\n1.25 2 3 0 0 0 0 1\n"),
+        ("far", "-1.7e308 1.7e308 -1.7e308 0 0 0 0 1\n1.7e308 -1.7e308 5e-324 0 0 0 1 -0\n"),
+        ("cut", "1.5 2 3 0 0 0 0 1\n2.5 2 3 0 0"),
+    ]
+    .map(|(name, text)| (name, text.as_bytes().to_vec()))
+    .to_vec()
 }
 
 /// Log-odds such as -5.05e-15, at which two logarithms gave an entropy above 1.

@@ -9,6 +9,8 @@ mod formats;
 mod grid;
 mod integral;
 mod room;
+#[cfg(feature = "formats")]
+mod scans;
 mod tally;
 
 pub use builders::{expected, scan};
@@ -17,3 +19,5 @@ pub use formats::{gridmap, npy, pgm, png, stack, yaml};
 pub use grid::grid;
 pub use integral::integrate;
 pub use room::room;
+#[cfg(feature = "formats")]
+pub use scans::{carmen_log, trajectory};

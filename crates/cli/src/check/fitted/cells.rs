@@ -168,3 +168,36 @@ fn solution(value: f64, function: impl Fn(f64) -> f64) -> Option<f64> {
     }
     Some(libm::exp(high))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_number_is_found_again() {
+        for (mistake, cells) in [
+            (Mistake::Added, &[1.0][..]),
+            (Mistake::Added, &[0.3]),
+            (Mistake::Added, &[0.25, 1e-12, 0.5, 0.9375]),
+            (Mistake::Clamped, &[0.0]),
+            (Mistake::Clamped, &[1e-9, 0.3, 1.0]),
+        ] {
+            for measure in [Measure::Entropy, Measure::Information, Measure::MeanInformation] {
+                let value = |e| measure.value(cells, |p| LN_2 * mistake.entropy(p, e));
+                let e = solution(value(3e-7), value).unwrap();
+                assert!((e / 3e-7 - 1.0).abs() < 1e-6, "{cells:?}: {e}");
+                assert_eq!(solution(value(0.41), value), None);
+            }
+        }
+    }
+
+    #[test]
+    fn the_mistakes_are_those_of_the_chapter() {
+        let near = |a: f64, b: f64| (a - b).abs() < 1e-14;
+        assert!(near(Mistake::Added.entropy(1.0, 1e-9), -1.4426950e-9));
+        assert!(near(Mistake::Added.entropy(0.25, 0.0), 0.8112781244591328));
+        assert!(near(Mistake::Clamped.entropy(1e-8, 1e-7), 2.469619163220e-6));
+        assert_eq!(Mistake::Clamped.entropy(1e-8, 1e-7), Mistake::Clamped.entropy(0.0, 1e-7));
+        assert_eq!(Mistake::Clamped.entropy(0.375, 1e-7), Mistake::Added.entropy(0.375, 0.0));
+    }
+}

@@ -145,3 +145,33 @@ fn room(arguments: &Arguments) -> Option<Room> {
     };
     Some([float("range")?, float("sigma")?])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mean_information::limit::{Weight, closed_form};
+    use mean_information::sensor::GaussianSensor;
+
+    /// With many parts every rule tends to the limit; Simpson's and trapezia faster than those that miss an end.
+    #[test]
+    fn sums_tend_to_the_limit() {
+        let (range, sigma) = (2.0, 0.3);
+        let sensor = GaussianSensor::new(range, sigma).unwrap();
+        for (by_area, weight) in [(false, Weight::Radial), (true, Weight::Area)] {
+            let limit = closed_form(&sensor, weight);
+            for rule in Rule::ALL {
+                let error = |parts| (sum(rule, parts, by_area, [range, sigma]) - limit).abs();
+                let most = if matches!(rule, Rule::Left | Rule::Right | Rule::Points) { 3e-4 } else { 1e-7 };
+                assert!(error(10_000) < most, "{}: {}", rule.name(10_000), error(10_000));
+                assert!(error(10) > 1e-4, "{}: {}", rule.name(10), error(10));
+            }
+        }
+    }
+
+    /// Computed by a loop of Python.
+    #[test]
+    fn a_thousand_trapezia() {
+        let found = sum(Rule::Trapezia, 1000, false, [2.0, 0.2]);
+        assert!((found - 0.7893368829585508).abs() < 1e-12, "{found}");
+    }
+}

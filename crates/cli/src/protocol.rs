@@ -144,7 +144,7 @@ pub struct Welcome {
     pub claims: BTreeMap<String, Claim>,
 }
 
-/// An error that a port claims: in ulp, absolute, or both, of which the larger counts.
+/// An error that a port claims: in ulp, absolute, or both, of which an answer is to keep either.
 ///
 /// A number alone is in ulp: `4` is `{"ulp":4}`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

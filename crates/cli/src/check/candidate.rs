@@ -45,9 +45,11 @@ impl Role {
     }
 
     /// Returns the role of what explains a share `recall` of the failures and shows on a share `precision` of the tests
-    /// on which it should; none if it explains less than a quarter.
-    pub(super) fn of(precision: f64, recall: f64) -> Option<Self> {
-        if recall > 0.5 && precision >= 0.5 {
+    /// on which it should; none if it explains less than a quarter. Where failures are says less than what they are, so
+    /// of a flag's tests more have to fail.
+    pub(super) fn of(kind: Kind, precision: f64, recall: f64) -> Option<Self> {
+        let least = if kind == Kind::Flag { 2.0 / 3.0 } else { 0.5 };
+        if recall > 0.5 && precision >= least {
             return Some(Self::Cause);
         }
         (recall >= 0.25).then_some(Self::Pattern)

@@ -9,8 +9,8 @@
 //!   format have as have any explains the share `P` of that format's other failures, too;
 //! * `2 P R / (P + R)`, times a weight below 1, for anything else.
 //!
-//! What explains most failures, `R > 1/2`, and shows on half of its tests comes first. What explains a quarter is a pattern, listed below; what explains
-//! less is not listed.
+//! What explains most failures, `R > 1/2`, and shows on half of its tests (of a flag's, on two thirds) comes first. What
+//! explains a quarter is a pattern, listed below; what explains less is not listed.
 
 use super::candidate::{Candidate, Case, Kind, Role, indices};
 use super::facts::facts;
@@ -90,7 +90,7 @@ fn rank(cases: &[Case<'_>], candidates: Vec<Candidate>) -> Vec<Cause> {
     };
     let ranked = |c: Candidate| {
         let precision = c.explained.len() as f64 / c.tests as f64;
-        Some((Role::of(precision, recall(&c))?, score(&c), c))
+        Some((Role::of(c.kind, precision, recall(&c))?, score(&c), c))
     };
     let mut scored: Vec<_> = candidates.into_iter().filter_map(ranked).collect();
     // Of equal ones that which explains more, then the first.
@@ -275,6 +275,26 @@ mod tests {
         // C explains a sixth.
         assert_eq!(names(&causes), ["A"]);
         assert_eq!((causes[0].score, causes[0].explained, causes[0].redundant), (1.0, 30, false));
+    }
+
+    /// B has tests enough to show what it explains, and A, C are answered in few of the failures that they could be in.
+    #[test]
+    fn a_quarter_is_a_pattern() {
+        let wants = wants(60);
+        let wrong: Vec<f64> = wants.iter().enumerate().map(|(i, x)| astray(i, *x)).collect();
+        let traps = |i: usize| {
+            let right = 0.25 + (i as u32 * 37 % 101) as f64 / 202.0;
+            let mut traps = vec![("B", right / 7.0)];
+            match i {
+                0..18 => traps.push(("A", astray(i, right))),
+                18..30 => traps.push(("C", astray(i, right))),
+                _ => {}
+            }
+            traps
+        };
+        let causes = causes(&wants, &wrong, |_| vec!["Random"], traps);
+        assert_eq!(names(&causes), ["A"]);
+        assert_eq!((causes[0].role, causes[0].explained), (Role::Pattern, 18));
     }
 
     #[test]

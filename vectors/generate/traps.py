@@ -98,6 +98,7 @@ ENTROPY = {
     "OneTerm": lambda p: -xlog2(p),
     "OtherTerm": lambda p: -xlog2(1 - p),
     "SignOfTerm": lambda p: xlog2(1 - p) - xlog2(p),
+    "MissingSign": lambda p: -entropy(p),
 }
 INFORMATION = {
     "Nats": lambda p: (1 - entropy(p)) * ln2(),
@@ -107,6 +108,7 @@ INFORMATION = {
     "AbsoluteDeviation": lambda p: abs(2 * p - 1),
     "OneTerm": lambda p: 1 + xlog2(p),
     "OtherTerm": lambda p: 1 + xlog2(1 - p),
+    "MissingSign": lambda p: 1 + entropy(p),
 }
 WRONG = {"entropy": ENTROPY, "information": INFORMATION}
 RIGHT = {"entropy": entropy, "information": lambda p: 1 - entropy(p)}
@@ -142,9 +144,11 @@ STORED = {
     "ClampedThousandth": lambda p: clamped(p, arb(1) / 1000, 1 - arb(1) / 1000),
     "ClampedOctoMap": lambda p: clamped(p, logistic(-2), logistic(3.5)),
     "Percent": lambda p: arb(round(float(100 * p))) / 100,
+    "PercentCut": lambda p: arb(math.floor(float(100 * p))) / 100,
     "Byte": lambda p: arb(round(float(255 * p))) / 255,
     "MrptByte": mrpt_byte,
     "SinglePrecision": lambda p: arb(float(np.float32(float(p)))),
+    "HalfPrecision": lambda p: arb(float(np.float16(float(p)))),
 }
 
 
@@ -336,6 +340,10 @@ def map_values(op, cells):
         found["MeanForSum"] = ratio(total["I"], seen) if seen else None
     else:
         found["ObservedOnly"] = only(observed)[0]
+        if n:
+            whole = add(cells)
+            found["Normalised"] = add(of_cell("share", lambda p: -xlog2(p / whole))) if whole != 0 else NAN
+            found["NormalisedNats"] = found["Normalised"] * ln2() if whole != 0 else NAN
         found["FirstCellDropped"], found["LastCellDropped"] = add(h[1:]), add(h[:-1])
         found["MeanForSum"] = ratio(total["H"], seen) if seen else None
     found["MeanOverAllForSum"] = ratio(total["H" if kind == "entropy" else "I"], n) if n else NAN

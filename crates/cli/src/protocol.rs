@@ -139,10 +139,67 @@ pub struct Welcome {
     pub formats: Vec<String>,
     /// The operations it has.
     pub ops: Vec<String>,
-    /// The error that it claims, in ulp, where that is more than the contract allows, by operation or by a pattern
-    /// with `*`.
+    /// The errors that it claims where they are more than the contract allows, by operation or by a pattern with `*`.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub claims: BTreeMap<String, f64>,
+    pub claims: BTreeMap<String, Claim>,
+}
+
+/// An error that a port claims: in ulp, absolute, or both, of which an answer is to keep either.
+///
+/// A number alone is in ulp: `4` is `{"ulp":4}`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(from = "WrittenClaim", into = "WrittenClaim")]
+pub struct Claim {
+    /// The error in spacings of floats at the answer; 0 claims nothing.
+    pub ulp: f64,
+    /// The absolute error: in bits, of an occupancy in units of `p`; 0 claims nothing.
+    pub bits: f64,
+}
+
+impl Claim {
+    /// Returns the claim that allows what either of two allows.
+    #[must_use]
+    pub fn or(self, other: Self) -> Self {
+        Self { ulp: self.ulp.max(other.ulp), bits: self.bits.max(other.bits) }
+    }
+
+    /// Returns what the claim allows above a tolerance in ulp.
+    #[must_use]
+    pub fn above(self, tolerance: f64) -> Self {
+        Self { ulp: if self.ulp > tolerance { self.ulp } else { 0.0 }, ..self }
+    }
+}
+
+/// A claim as it is written.
+#[derive(Serialize, Deserialize)]
+#[serde(untagged, expecting = "a claim is a number of ulp, or an object with \"ulp\", \"bits\" or both")]
+enum WrittenClaim {
+    Ulp(f64),
+    Parts(ClaimParts),
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ClaimParts {
+    #[serde(default)]
+    ulp: f64,
+    #[serde(default)]
+    bits: f64,
+}
+
+impl From<WrittenClaim> for Claim {
+    fn from(written: WrittenClaim) -> Self {
+        match written {
+            WrittenClaim::Ulp(ulp) => Self { ulp, bits: 0.0 },
+            WrittenClaim::Parts(ClaimParts { ulp, bits }) => Self { ulp, bits },
+        }
+    }
+}
+
+impl From<Claim> for WrittenClaim {
+    fn from(Claim { ulp, bits }: Claim) -> Self {
+        if bits == 0.0 { Self::Ulp(ulp) } else { Self::Parts(ClaimParts { ulp, bits }) }
+    }
 }
 
 impl Welcome {
@@ -300,11 +357,21 @@ mod tests {
 
     #[test]
     fn a_welcome_may_claim_and_may_leave_out_its_names() {
-        let line =
-            r#"{"protocol":1,"formats":["f64"],"ops":["cell.entropy"],"claims":{"cell.*":4,"map.*":1e1}}"#;
-        let welcome: Welcome = serde_json::from_str(line).unwrap();
-        assert_eq!(welcome.claims.values().copied().collect::<Vec<_>>(), [4.0, 10.0]);
+        let claims = r#"{"a":4,"b":1e1,"c":{"bits":2e-16},"d":{"ulp":3,"bits":1e-9}}"#;
+        let line = |claims: &str| {
+            format!(r#"{{"protocol":1,"formats":["f64"],"ops":["cell.entropy"],"claims":{claims}}}"#)
+        };
+        let welcome: Welcome = serde_json::from_str(&line(claims)).unwrap();
+        let claim = |ulp, bits| Claim { ulp, bits };
+        let claimed: Vec<_> = welcome.claims.values().copied().collect();
+        assert_eq!(claimed, [claim(4.0, 0.0), claim(10.0, 0.0), claim(0.0, 2e-16), claim(3.0, 1e-9)]);
+        assert_eq!(claimed[1].or(claimed[3]), claim(10.0, 1e-9));
         assert_eq!(welcome.name, "");
+        assert_eq!(serde_json::from_str::<Welcome>(&welcome.line()).unwrap(), welcome);
+        for wrong in [r#"{"a":"4"}"#, r#"{"a":{"nats":1}}"#] {
+            let error = serde_json::from_str::<Welcome>(&line(wrong)).unwrap_err().to_string();
+            assert!(error.contains("a claim is a number of ulp"), "{error}");
+        }
         assert!(serde_json::from_str::<Welcome>(r#"{"protocol":1,"formats":["f64"]}"#).is_err());
     }
 

@@ -26,6 +26,36 @@ impl Kind {
     }
 }
 
+/// The part that a cause has in an operation's failures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// It explains most of them.
+    Cause,
+    /// It explains a quarter of them at least.
+    Pattern,
+}
+
+impl Role {
+    /// Returns its name in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Cause => "cause",
+            Self::Pattern => "pattern",
+        }
+    }
+
+    /// Returns the role of what explains a share `recall` of the failures and shows on a share `precision` of the tests
+    /// on which it should; none if it explains less than a quarter. Where failures are says less than what they are, so
+    /// of a flag's tests more have to fail.
+    pub(super) fn of(kind: Kind, precision: f64, recall: f64) -> Option<Self> {
+        let least = if kind == Kind::Flag { 2.0 / 3.0 } else { 0.5 };
+        if recall > 0.5 && precision >= least {
+            return Some(Self::Cause);
+        }
+        (recall >= 0.25).then_some(Self::Pattern)
+    }
+}
+
 /// A test that was run, and how it ended.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Case<'a> {

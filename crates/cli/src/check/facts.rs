@@ -7,10 +7,10 @@ use super::values::{FloatFormat, Want};
 use crate::output::short;
 use crate::protocol::errors;
 use mean_information::Real;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Weights of a cause: `PLAIN` for a certain but general fact, `PATTERN` for a numerical pattern.
-const PLAIN: f64 = 0.95;
+pub(super) const PLAIN: f64 = 0.95;
 const PATTERN: f64 = 0.9;
 /// A pattern shows in so many answers at least.
 const LEAST: usize = 3;
@@ -31,15 +31,24 @@ pub(super) fn facts(cases: &[Case<'_>]) -> Vec<Candidate> {
         candidates.push(fact(name, (*note).to_owned(), PLAIN, indices(cases, holds)));
     }
     candidates.extend(words(cases));
-    let patterns =
-        [lag(cases), constant(cases), factor(cases), complement(cases), few_ulp(cases), twice(cases)];
+    let patterns = [
+        lag(cases),
+        constant(cases),
+        factor(cases),
+        missing_sign(cases),
+        complement(cases),
+        few_ulp(cases),
+        twice(cases),
+        half_precision(cases),
+    ];
     candidates.extend(patterns.into_iter().flatten());
     candidates.extend(bits(cases));
     candidates.retain(|candidate| !candidate.explained.is_empty());
     candidates
 }
 
-fn fact(name: &str, note: String, weight: f64, explained: Vec<usize>) -> Candidate {
+/// Creates a fact that shows on no test but those it explains.
+pub(super) fn fact(name: &str, note: String, weight: f64, explained: Vec<usize>) -> Candidate {
     let tests = explained.len();
     Candidate { kind: Kind::Fact, name: name.to_owned(), note, explained, tests, elsewhere: None, weight }
 }
@@ -114,15 +123,16 @@ fn words(cases: &[Case<'_>]) -> Vec<Candidate> {
 
 /// A finite number that was answered.
 #[derive(Clone, Copy)]
-struct Number {
-    case: usize,
-    right: bool,
-    value: f64,
-    error: Deviation,
+pub(super) struct Number {
+    /// The index of the case.
+    pub(super) case: usize,
+    pub(super) right: bool,
+    pub(super) value: f64,
+    pub(super) error: Deviation,
 }
 
 /// Returns the numbers that were answered where one was wanted, right ones too.
-fn numbers(cases: &[Case<'_>]) -> Vec<Number> {
+pub(super) fn numbers(cases: &[Case<'_>]) -> Vec<Number> {
     let number = |(case, Case { judged, .. }): (usize, &Case<'_>)| match judged {
         Some(Judged { right, answer: Answered::Float(value, _), error: Some(error), .. }) => {
             Some(Number { case, right: *right, value: *value, error: *error })
@@ -149,8 +159,8 @@ fn followed(
     let explained: Vec<_> = wrong.map(|number| number.case).collect();
     let others = numbers.iter().filter(|number| !follows(number)).count();
     let tests = explained.len() + others;
-    // Half of the tests: less is chance.
-    let telling = explained.len() >= LEAST && 2 * explained.len() >= tests;
+    // A quarter of the tests: less is chance.
+    let telling = explained.len() >= LEAST && 4 * explained.len() >= tests;
     telling.then(|| Candidate { tests, ..fact(name, note, PATTERN, explained) })
 }
 
@@ -218,6 +228,26 @@ fn factor(cases: &[Case<'_>]) -> Option<Candidate> {
     factor.filter(|_| (median - 1.0).abs() > NEAR)
 }
 
+/// Detects negative answers where results are positive.
+fn missing_sign(cases: &[Case<'_>]) -> Option<Candidate> {
+    let numbers: Vec<_> = numbers(cases).into_iter().filter(|number| number.error.exact > 0.0).collect();
+    let negative: Vec<_> = numbers.iter().filter(|n| !n.right && n.value < 0.0).collect();
+    let ratio = |number: &&Number| number.value / number.error.exact;
+    let mut ratios: Vec<_> = negative.iter().map(|number| -ratio(number)).collect();
+    ratios.sort_by(f64::total_cmp);
+    let median = *ratios.get(ratios.len() / 2)?;
+    let known = KNOWN_FACTORS.iter().find(|(factor, _)| (median - factor).abs() <= SAME * factor);
+    let note = format!(
+        "answers negative numbers: the minus sign before the sum is missing{}",
+        known
+            .map(|(factor, what)| format!(", and {} times the result{what}", short(*factor)))
+            .unwrap_or_default()
+    );
+    let explained: Vec<_> = negative.iter().map(|number| number.case).collect();
+    let telling = explained.len() >= LEAST && 2 * explained.len() >= numbers.len();
+    telling.then(|| Candidate { tests: numbers.len(), ..fact("missing-sign", note, PLAIN, explained) })
+}
+
 /// Factors that are known by name.
 const KNOWN_FACTORS: &[(f64, &str)] = &[
     (std::f64::consts::LN_2, ", ln 2: nats in place of bits"),
@@ -274,6 +304,32 @@ fn bits(cases: &[Case<'_>]) -> Vec<Candidate> {
     let most = by_format.into_iter().filter(|(format, numbers)| 2 * numbers.len() >= wrong[format]);
     most.map(candidate).collect()
 }
+
+/// Detects answers that half precision has: most of them near the exact results, and many different ones.
+fn half_precision(cases: &[Case<'_>]) -> Option<Candidate> {
+    let wrong = wrong_numbers(cases);
+    let half: Vec<_> = wrong.iter().filter(|number| is_half(number.value)).collect();
+    let near = half.iter().filter(|number| number.error.relative < NEAR_HALF).count();
+    let values: BTreeSet<_> = half.iter().map(|number| number.value.to_bits()).collect();
+    let note = "answers numbers of half precision, with 11 bits: something is computed in float16".to_owned();
+    let explained: Vec<_> = half.iter().map(|number| number.case).collect();
+    let telling = 2 * near >= half.len()
+        && values.len() >= HALF_VALUES
+        && half.len() as f64 >= MOST * wrong.len() as f64;
+    telling.then(|| Candidate { tests: wrong.len(), ..fact("half-precision", note, PLAIN, explained) })
+}
+
+/// Returns whether half precision has a number.
+fn is_half(x: f64) -> bool {
+    let (m, e) = x.parts();
+    let zeros = m.trailing_zeros() as i32;
+    m == 0 || m >> zeros < 1 << 11 && e + zeros >= -24 && x.abs() <= 65504.0
+}
+
+/// The relative error of half precision, and some more.
+const NEAR_HALF: f64 = 0.004;
+/// The least number of different answers, which certain and unknown cells alone do not give.
+const HALF_VALUES: usize = 12;
 
 /// The number of right bits, about, of numbers in single precision.
 const SINGLE_BITS: std::ops::RangeInclusive<i32> = 22..=27;

@@ -8,7 +8,7 @@ use super::exact::Exact;
 use super::values::{FloatFormat, NEAREST, Want};
 use super::vectors::Test;
 use crate::hex_float::{self, ParseError};
-use crate::protocol::{Reply, errors};
+use crate::protocol::{Claim, Reply, errors};
 use mean_information::Real;
 use serde_json::Value as Json;
 
@@ -32,6 +32,8 @@ pub struct Deviation {
     pub ulp: f64,
     /// The distance relative to the exact result.
     pub relative: f64,
+    /// The distance: in bits, of an occupancy in units of `p`.
+    pub absolute: f64,
     /// The exact result, about.
     pub exact: f64,
 }
@@ -56,23 +58,34 @@ pub enum Answered {
     },
 }
 
-/// Judges a result or an error; both tolerances in ulp: that of the contract, and what the port claims.
-pub(super) fn judge(test: &Test, contract: f64, claim: f64, reply: &Reply) -> Judged {
+/// The error that an answer may have.
+#[derive(Clone, Copy)]
+enum Tolerance {
+    /// In spacings of floats at the answer; [`NEAREST`] means the nearest float.
+    Ulp(f64),
+    /// Absolute.
+    Absolute(f64),
+}
+
+/// Judges a result or an error by the contract, in ulp, and by what the port claims.
+pub(super) fn judge(test: &Test, contract: f64, claim: Claim, reply: &Reply) -> Judged {
     let judge = |tolerance| match test.format {
         FloatFormat::F32 => judge_as::<f32>(test, tolerance, reply),
         FloatFormat::F64 => judge_as::<f64>(test, tolerance, reply),
     };
-    let judged = judge(contract);
-    // A claim is about size: the sign is that of the exact result, and of a zero, all the same.
-    let negative = matches!(judged.answer, Answered::Float(x, _) if x.is_sign_negative());
-    if judged.right || claim <= contract || negative {
+    let judged = judge(Tolerance::Ulp(contract));
+    if judged.right {
         return judged;
     }
-    let right = judge(claim).right;
+    // A claim in ulp is about size: the sign is that of the exact result, and of a zero, all the same.
+    let negative = matches!(judged.answer, Answered::Float(x, _) if x.is_sign_negative());
+    let in_ulp = || claim.ulp > contract && !negative && judge(Tolerance::Ulp(claim.ulp)).right;
+    let absolutely = || claim.bits > 0.0 && judge(Tolerance::Absolute(claim.bits)).right;
+    let right = in_ulp() || absolutely();
     Judged { right, by_claim: right, ..judged }
 }
 
-fn judge_as<T: Real>(test: &Test, tolerance: f64, reply: &Reply) -> Judged {
+fn judge_as<T: Real>(test: &Test, tolerance: Tolerance, reply: &Reply) -> Judged {
     let wants = || std::iter::once(&test.want).chain(&test.also);
     let without_error =
         |right: bool, answer: Answered| Judged { right, by_claim: false, answer, error: None };
@@ -122,9 +135,12 @@ fn judge_as<T: Real>(test: &Test, tolerance: f64, reply: &Reply) -> Judged {
 }
 
 /// Returns whether a finite answer is right for some number from `lo` to `hi`.
-fn is_right<T: Real>(x: T, lo: &Exact, hi: &Exact, tolerance: f64) -> bool {
-    if tolerance > NEAREST {
-        let reach = Exact::of(tolerance).scaled(spacing(x));
+fn is_right<T: Real>(x: T, lo: &Exact, hi: &Exact, tolerance: Tolerance) -> bool {
+    let reach = match tolerance {
+        Tolerance::Absolute(reach) => Some(Exact::of(reach)),
+        Tolerance::Ulp(ulp) => (ulp > NEAREST).then(|| Exact::of(ulp).scaled(spacing(x))),
+    };
+    if let Some(reach) = reach {
         let x = Exact::of(x);
         return x.minus(&reach).cmp(hi).is_le() && lo.cmp(&x.plus(&reach)).is_le();
     }
@@ -177,7 +193,7 @@ fn deviation<T: Real>(x: T, lo: &Exact, hi: &Exact) -> Deviation {
     // Scaled before they are rounded: below the smallest float there is something, too.
     let ulp = distance.scaled(-unit).approximate();
     let relative = if ulp == 0.0 { 0.0 } else { ulp / nearest.abs().scaled(-unit).approximate() };
-    Deviation { ulp, relative, exact }
+    Deviation { ulp, relative, absolute: distance.approximate(), exact }
 }
 
 #[cfg(test)]
@@ -208,7 +224,7 @@ mod tests {
 
     fn judged<T: Real>(x: T, ends: (&str, &str), tolerance: f64) -> Judged {
         let reply = Reply::Result(hex_float::format(x).into());
-        judge(&test::<T>(enclosure(ends.0, ends.1), Vec::new()), tolerance, 0.0, &reply)
+        judge(&test::<T>(enclosure(ends.0, ends.1), Vec::new()), tolerance, Claim::default(), &reply)
     }
 
     fn is_nearest<T: Real>(x: T, exact: &str) -> bool {
@@ -273,7 +289,8 @@ mod tests {
     fn errors_are_measured() {
         let error = |x: f64, exact: &str| judged(x, (exact, exact), 2.0).error.unwrap();
         assert_eq!(error(0.5, "0.5").ulp, 0.0);
-        assert_eq!(error(0.75, "0.625"), Deviation { ulp: 0.125 * TO_53, relative: 0.2, exact: 0.625 });
+        let expected = Deviation { ulp: 0.125 * TO_53, relative: 0.2, absolute: 0.125, exact: 0.625 };
+        assert_eq!(error(0.75, "0.625"), expected);
         assert_eq!(error(0.4375, "0.625").ulp, 0.1875 * 2.0 * TO_53);
         // Less than half of the exact result: in its spacings.
         assert_eq!(error(0.0, "0.75").ulp, 0.75 * TO_53);
@@ -290,7 +307,7 @@ mod tests {
         let counts = test::<f64>(Want::Count(3), vec![Want::Count(5)]);
         let also = vec![enclosure("0.5", "0.5"), Want::Domain];
         let test = test::<f64>(enclosure("0.25", "0.25"), also);
-        let judged = |reply: &Reply| judge(&test, NEAREST, 0.0, reply);
+        let judged = |reply: &Reply| judge(&test, NEAREST, Claim::default(), reply);
         for (reply, right) in [
             (Reply::Result("0x1p-2".into()), true),
             (Reply::Result("0x1p-1".into()), true),
@@ -305,23 +322,53 @@ mod tests {
             assert_eq!(judged(&reply).right, right, "{reply:?}");
         }
         for (value, right) in [(json!(3), true), (json!(4), false), (json!(5), true), (json!(3.0), false)] {
-            assert_eq!(judge(&counts, 0.0, 0.0, &Reply::Result(value.clone())).right, right, "{value}");
+            assert_eq!(
+                judge(&counts, 0.0, Claim::default(), &Reply::Result(value.clone())).right,
+                right,
+                "{value}"
+            );
         }
         // The nearest of them counts.
         let deviation = judged(&Reply::Result("0x1.1p-1".into())).error.unwrap();
         assert_eq!(deviation.exact, 0.5);
     }
 
-    /// A claim is about size, and what it allows is counted.
+    const RIGHT: (bool, bool) = (true, false);
+    const BY_CLAIM: (bool, bool) = (true, true);
+    const WRONG: (bool, bool) = (false, false);
+
+    /// Returns whether the answer `x` to a test is right, and whether by claim.
+    fn claimed(exact: &str, ulp: f64, bits: f64, x: f64) -> (bool, bool) {
+        let reply = Reply::Result(hex_float::format(x).into());
+        let judged =
+            judge(&test::<f64>(enclosure(exact, exact), Vec::new()), NEAREST, Claim { ulp, bits }, &reply);
+        (judged.right, judged.by_claim)
+    }
+
+    /// A claim in ulp is about size, and what it allows is counted.
     #[test]
     fn a_claim_excuses_no_sign() {
-        let zero = test::<f64>(enclosure("0", "0"), Vec::new());
-        let judged = |claim: f64, x: f64| {
-            let reply = Reply::Result(hex_float::format(x).into());
-            let judged = judge(&zero, NEAREST, claim, &reply);
-            (judged.right, judged.by_claim)
-        };
-        assert_eq!([judged(3.0, 0.0), judged(3.0, f64::from_bits(2))], [(true, false), (true, true)]);
-        assert_eq!([judged(3.0, -0.0), judged(3.0, f64::from_bits(4))], [(false, false); 2]);
+        let judged = |ulp, x| claimed("0", ulp, 0.0, x);
+        assert_eq!([judged(3.0, 0.0), judged(3.0, f64::from_bits(2))], [RIGHT, BY_CLAIM]);
+        assert_eq!([judged(3.0, -0.0), judged(3.0, f64::from_bits(4))], [WRONG; 2]);
+    }
+
+    /// Near 1/2 the information is tiny, and any answer that is tiny is near it; a count is exact.
+    #[test]
+    fn an_absolute_error_may_be_claimed() {
+        let judged = |bits, x| claimed("1e-20", 0.0, bits, x);
+        assert_eq!([judged(2e-16, 1.5e-16), judged(2e-16, -1.5e-16), judged(2e-16, 0.0)], [BY_CLAIM; 3]);
+        assert_eq!([judged(2e-16, 2.1e-16), judged(2e-16, 1.0), judged(0.0, 0.0)], [WRONG; 3]);
+        // The end of what is claimed, exactly: 2^-53 from 1.
+        let below = |bits| claimed("1", 0.0, bits, 1.0_f64.next_down());
+        assert_eq!([below(1.0 / TO_53), below((1.0 / TO_53).next_down())], [BY_CLAIM, WRONG]);
+        // Beside a claim in ulp either will do.
+        let both = |x| claimed("1e-20", 3.0, 2e-16, x);
+        assert_eq!(
+            [both(1e-20_f64.next_up().next_up()), both(1e-16), both(3e-16)],
+            [BY_CLAIM, BY_CLAIM, WRONG]
+        );
+        let count = test::<f64>(Want::Count(3), Vec::new());
+        assert!(!judge(&count, 0.0, Claim { ulp: 5.0, bits: 5.0 }, &Reply::Result(json!(4))).right);
     }
 }

@@ -7,7 +7,7 @@
 //! | `judge` | whether an answer is right |
 //! | `group`, `process`, `run` | the port, and the conversation with it |
 //! | `known` | failures that are expected |
-//! | `candidate`, `facts`, `diagnosis` | why tests failed |
+//! | `candidate`, `facts`, `fitted`, `diagnosis` | why tests failed |
 //! | `words`, `report`, `junit` | the verdict, written |
 //! | `registry` | the list of operations, written |
 
@@ -15,6 +15,7 @@ mod candidate;
 mod diagnosis;
 mod exact;
 mod facts;
+mod fitted;
 mod glob;
 mod group;
 mod judge;
@@ -28,19 +29,19 @@ mod values;
 mod vectors;
 mod words;
 
-pub use candidate::Kind;
+pub use candidate::{Kind, Role};
 pub use diagnosis::Cause;
 pub use judge::{Answered, Deviation, Judged};
 pub use known::KnownFailures;
 pub use process::{End, PortError};
 pub use registry::Registry;
 pub use run::PortFailure;
-pub use values::{Decimal, FloatFormat, MAX_TOLERANCE, NEAREST, Trap, Version, Want};
+pub use values::{Decimal, FloatFormat, MAX_ABSOLUTE, MAX_TOLERANCE, NEAREST, Trap, Version, Want};
 pub use vectors::{Test, Vectors};
 
 use crate::failure::Failure;
 use crate::progress::Progress;
-use crate::protocol::{Reply, Welcome};
+use crate::protocol::{Claim, Reply, Welcome};
 use mean_information::Real;
 use run::{Conversation, Ending, Outcome};
 use std::ffi::OsString;
@@ -77,8 +78,8 @@ pub struct Check {
 struct Checked {
     vectors: Vectors,
     declared: bool,
-    /// The port's claim in ulp, if it is more than the contract's tolerance.
-    claimed: Option<f64>,
+    /// The port's claim, where it is more than the contract's tolerance.
+    claimed: Claim,
     /// The verdict on each test.
     verdicts: Vec<Verdict>,
     causes: Vec<Cause>,
@@ -207,7 +208,7 @@ fn check(
 ) -> Checked {
     let declared = port.ops.contains(&vectors.op);
     let claims = port.claims.iter().filter(|(pattern, _)| glob::matches(pattern, &vectors.op));
-    let claim = claims.map(|(_, claim)| *claim).fold(0.0, f64::max);
+    let claim = claims.map(|(_, claim)| *claim).fold(Claim::default(), Claim::or);
     let has = |format: FloatFormat| port.formats.iter().any(|name| name == format.name());
     let asked: Vec<_> = vectors.tests.iter().filter(|test| declared && has(test.format)).collect();
     (asked.len()..vectors.tests.len()).for_each(|_| progress.done());
@@ -240,7 +241,8 @@ fn check(
     let verdicts: Vec<_> = vectors.tests.iter().map(verdict).collect();
     let causes = diagnosis::diagnose(&vectors, &verdicts);
     // Counts are exact, whatever a port claims.
-    let claimed = (vectors.tolerance_ulp > 0.0 && claim > vectors.tolerance_ulp).then_some(claim);
+    let claimed =
+        if vectors.tolerance_ulp > 0.0 { claim.above(vectors.tolerance_ulp) } else { Claim::default() };
     Checked { vectors, declared, claimed, verdicts, causes }
 }
 
@@ -264,9 +266,8 @@ fn notes(port: &Welcome, names: &[String]) -> Vec<String> {
         .map(|op| format!("the port declares the operation {op}, which has no vectors"))
         .chain(formats.map(|format| format!("the port declares the format {format}, which has no vectors")))
         .chain(
-            claims.map(|pattern| {
-                format!("the port claims a tolerance for {pattern}, which no operation matches")
-            }),
+            claims
+                .map(|pattern| format!("the port claims an error for {pattern}, which no operation matches")),
         )
         .collect()
 }

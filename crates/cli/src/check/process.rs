@@ -73,6 +73,14 @@ pub enum PortError {
     DoesNotStop(Duration),
 }
 
+impl PortError {
+    /// Returns whether the port printed a line that does not even look like an answer.
+    pub(super) fn is_stray_line(&self) -> bool {
+        // The line is shown in quotes.
+        matches!(self, Self::Malformed { line, .. } if !line.starts_with("'{"))
+    }
+}
+
 /// The end of a port's process.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct End {

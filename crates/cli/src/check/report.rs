@@ -1,11 +1,13 @@
 //! The verdict: a table with the causes of failures below it, JSON with everything, CSV with the numbers.
 
+use super::judge::Deviation;
 use super::run::request;
 use super::values::FloatFormat;
 use super::vectors::Test;
-use super::{Answered, Cause, Check, Checked, Counts, PortFailure, TestFailure, Verdict, words};
+use super::{Answered, Cause, Check, Checked, Counts, PortFailure, Role, TestFailure, Verdict, words};
 use crate::one_line::one_line;
 use crate::output::{Number, Record, Report, Value, short, table};
+use crate::protocol::Claim;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -58,6 +60,17 @@ impl Checked {
         if most > least { format!("{least} to {most}") } else { least.to_string() }
     }
 
+    /// Returns what the port claims, if that is more than the tolerance, or else the tolerance, in ulp but for what has
+    /// another unit.
+    fn allowed_or_claimed(&self) -> String {
+        match self.claimed {
+            Claim { ulp: 0.0, bits: 0.0 } => self.allowed(),
+            Claim { ulp, bits: 0.0 } => format!("{ulp} claimed"),
+            Claim { ulp: 0.0, bits } => format!("{bits:e} bits claimed"),
+            Claim { ulp, bits } => format!("{ulp} or {bits:e} bits claimed"),
+        }
+    }
+
     fn section(&self, text: &mut String) {
         let counts = Counts::of(&self.verdicts);
         let failures = counts.failed + counts.known;
@@ -69,11 +82,11 @@ impl Checked {
         let best = self.causes.first().map_or(0.0, |cause| cause.score);
         let least = LEAST.max(LIKELY * best);
         let likely = self.causes.iter().filter(|cause| !cause.redundant && cause.score >= least);
-        for cause in likely.clone().take(CAUSES_SHOWN) {
-            let _ = writeln!(text, "  {}", words::cause(cause, failures));
+        if likely.clone().all(|cause| cause.role == Role::Pattern) {
+            let _ = writeln!(text, "  no known mistake explains most of them");
         }
-        if likely.count() == 0 {
-            let _ = writeln!(text, "  no known mistake explains them");
+        for cause in likely.take(CAUSES_SHOWN) {
+            let _ = writeln!(text, "  {}", words::cause(cause, failures));
         }
         let not_run =
             self.failures().filter(|(_, failure)| matches!(failure, TestFailure::NotRun(_))).count();
@@ -107,19 +120,23 @@ impl Checked {
     fn record(&self, format: FloatFormat, verdicts: &[&Verdict]) -> Record {
         let counts = Counts::of(verdicts.iter().copied());
         let count = |n: usize| Value::Count(n as u64);
-        let cause = self.causes.first().map(|cause| cause.name.clone()).unwrap_or_default();
+        let cause = self.causes.first().filter(|cause| cause.role == Role::Cause);
+        let cause = cause.map(|cause| cause.name.clone()).unwrap_or_default();
+        let worst = |part| Value::Computed(worst_error(verdicts, part).map(Number::Double));
         Record(vec![
             ("operation", Value::Text(self.vectors.op.clone())),
             ("format", Value::Text(format.to_string())),
             ("declared", Value::Flag(self.declared)),
             ("tolerance_ulp", Value::Given(Some(self.vectors.tolerance_ulp))),
-            ("claimed_ulp", Value::Given(self.claimed)),
+            ("claimed_ulp", given(self.claimed.ulp)),
+            ("claimed_bits", given(self.claimed.bits)),
             ("cases", count(counts.cases)),
             ("passed", count(counts.passed)),
             ("failed", count(counts.failed)),
             ("skipped", count(counts.skipped)),
             ("known_failures", count(counts.known)),
-            ("worst_error_ulp", Value::Computed(worst_error(verdicts).map(Number::Double))),
+            ("worst_error_ulp", worst(|error| error.ulp)),
+            ("worst_error_absolute", worst(|error| error.absolute)),
             ("cause", Value::Text(if counts.failed + counts.known > 0 { cause } else { String::new() })),
         ])
     }
@@ -140,8 +157,8 @@ impl Checked {
     }
 
     fn failure(&self, test: &Test, failure: &TestFailure) -> Record {
-        let (ulp, stderr) = match failure {
-            TestFailure::Answer(judged) => (judged.error.map(|error| error.ulp), Vec::new()),
+        let (error, stderr) = match failure {
+            TestFailure::Answer(judged) => (judged.error, Vec::new()),
             TestFailure::Port(failure) => (None, failure.stderr.clone()),
             TestFailure::NotRun(_) => (None, Vec::new()),
         };
@@ -162,7 +179,8 @@ impl Checked {
             ("wanted", Value::Text(words::wanted(test))),
             ("answer", Value::Text(answer)),
             ("what", Value::Text(words::answered(failure))),
-            ("error_ulp", Value::Computed(ulp.map(Number::Double))),
+            ("error_ulp", Value::Computed(error.map(|error| Number::Double(error.ulp)))),
+            ("error_absolute", Value::Computed(error.map(|error| Number::Double(error.absolute)))),
             ("flags", Value::Texts(test.flags.clone())),
             ("stderr", Value::Texts(stderr)),
         ])
@@ -172,6 +190,7 @@ impl Checked {
 fn cause(cause: &Cause) -> Record {
     let count = |n: usize| Value::Count(n as u64);
     let mut record = vec![
+        ("role", Value::Text(cause.role.name().to_owned())),
         ("kind", Value::Text(cause.kind.name().to_owned())),
         ("name", Value::Text(cause.name.clone())),
         ("note", Value::Text(cause.note.clone())),
@@ -185,15 +204,20 @@ fn cause(cause: &Cause) -> Record {
     Record(record)
 }
 
-/// Returns the largest error of numbers that were answered, right ones too.
-fn worst_error(verdicts: &[&Verdict]) -> Option<f64> {
-    let ulp = |verdict: &&Verdict| match verdict {
+/// Wraps a claim; 0 claims nothing.
+fn given(claim: f64) -> Value {
+    Value::Given((claim > 0.0).then_some(claim))
+}
+
+/// Returns the largest error of numbers that were answered, right ones too, by a measure of errors.
+fn worst_error(verdicts: &[&Verdict], measure: fn(Deviation) -> f64) -> Option<f64> {
+    let error = |verdict: &&Verdict| match verdict {
         Verdict::Passed(judged)
         | Verdict::Failed(TestFailure::Answer(judged))
-        | Verdict::Known(TestFailure::Answer(judged)) => judged.error.map(|error| error.ulp),
+        | Verdict::Known(TestFailure::Answer(judged)) => judged.error.map(measure),
         _ => None,
     };
-    verdicts.iter().filter_map(ulp).reduce(f64::max)
+    verdicts.iter().filter_map(error).reduce(f64::max)
 }
 
 /// Writes the last lines of standard error.
@@ -222,10 +246,7 @@ impl Check {
     fn summary(&self) -> String {
         let row = |operation: &Checked, format: FloatFormat, verdicts: &[&Verdict]| {
             let counts = Counts::of(verdicts.iter().copied());
-            let tolerance = match operation.claimed {
-                Some(claim) => format!("{claim} claimed"),
-                None => operation.allowed(),
-            };
+            let worst = |measure| worst_error(verdicts, measure).map(short).unwrap_or_default();
             [
                 operation.vectors.op.clone(),
                 format.to_string(),
@@ -233,8 +254,9 @@ impl Check {
                 counts.passed.to_string(),
                 counts.failed.to_string(),
                 counts.skipped.to_string(),
-                worst_error(verdicts).map(short).unwrap_or_default(),
-                tolerance,
+                worst(|error| error.ulp),
+                worst(|error| error.absolute),
+                operation.allowed_or_claimed(),
             ]
         };
         let mut rows = Vec::new();
@@ -251,6 +273,7 @@ impl Check {
             "failed",
             "skipped",
             "worst error\n(ulp)",
+            "worst error\n(absolute)",
             "allowed\n(ulp)",
         ];
         table(header, rows)
@@ -332,8 +355,8 @@ impl Report for Check {
     fn json(&self) -> Value {
         let text = |text: &str| Value::Text(text.to_owned());
         let count = |n: usize| Value::Count(n as u64);
-        let claim = |(pattern, ulp): (&String, &f64)| {
-            Record(vec![("operation", text(pattern)), ("ulp", Value::Given(Some(*ulp)))])
+        let claim = |(pattern, claim): (&String, &Claim)| {
+            Record(vec![("operation", text(pattern)), ("ulp", given(claim.ulp)), ("bits", given(claim.bits))])
         };
         let port = Record(vec![
             ("command", text(&self.command)),

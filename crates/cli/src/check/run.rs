@@ -2,11 +2,11 @@
 //! port is started again.
 
 use super::process::{PortError, Process, shown};
-use super::values::MAX_TOLERANCE;
+use super::values::{MAX_ABSOLUTE, MAX_TOLERANCE};
 use super::vectors::Test;
 use crate::failure::Failure;
 use crate::one_line::one_line;
-use crate::protocol::{Answer, Reply, Request, Run, VERSION, Welcome};
+use crate::protocol::{Answer, Claim, Reply, Request, Run, VERSION, Welcome};
 use serde::Deserialize;
 use serde_json::Value as Json;
 use serde_json::error::Category;
@@ -17,6 +17,8 @@ use std::time::Duration;
 const AHEAD: usize = 32;
 /// After so many troubles the rest of an operation is not run.
 pub(super) const TROUBLES_PER_OPERATION: usize = 20;
+/// After so many lines that are no answers, such as those of debugging, nothing is run any more.
+const STRAY_LINES: usize = 3;
 /// After so many answers that did not come in time nothing is run any more.
 pub(super) const TIME_OUTS: usize = 5;
 
@@ -49,6 +51,7 @@ pub(super) struct Conversation<'a> {
     /// The number of the next request.
     numbered: u64,
     time_outs: usize,
+    stray_lines: usize,
     restarts: usize,
     /// Troubles that belong to no single request.
     port_failures: Vec<(String, PortFailure)>,
@@ -80,6 +83,7 @@ impl<'a> Conversation<'a> {
             ahead: AHEAD,
             numbered: 1,
             time_outs: 0,
+            stray_lines: 0,
             restarts: 0,
             port_failures: Vec::new(),
             given_up: None,
@@ -141,9 +145,14 @@ impl<'a> Conversation<'a> {
     /// Ends the port and starts it again.
     fn restart(&mut self, error: PortError) -> PortFailure {
         self.time_outs += usize::from(matches!(error, PortError::TimeOut(_)));
+        self.stray_lines += usize::from(error.is_stray_line());
         let stderr = self.process.take().map(Process::end).unwrap_or_default();
         if self.time_outs >= TIME_OUTS {
             self.given_up = Some(format!("{TIME_OUTS} answers did not come in time"));
+        } else if self.stray_lines >= STRAY_LINES {
+            self.given_up = Some(format!(
+                "{STRAY_LINES} lines that are no answers; what a port prints beside its answers belongs on standard error"
+            ));
         } else {
             self.restarts += 1;
             match greet(self.command, self.limit) {
@@ -208,10 +217,12 @@ fn read_welcome(line: &[u8]) -> Result<Welcome, String> {
     if welcome.ops.is_empty() {
         return Err("it has no operations: \"ops\" is empty".to_owned());
     }
-    if let Some((pattern, claim)) =
-        welcome.claims.iter().find(|(_, claim)| !(0.0..=MAX_TOLERANCE).contains(*claim))
-    {
-        return Err(format!("it claims {claim} ulp for {pattern}; a claim is 0 to {MAX_TOLERANCE}"));
+    for (pattern, Claim { ulp, bits }) in &welcome.claims {
+        for (claim, unit, most) in [(*ulp, "ulp", MAX_TOLERANCE), (*bits, "bits", MAX_ABSOLUTE)] {
+            if !(0.0..=most).contains(&claim) {
+                return Err(format!("it claims {claim} {unit} for {pattern}; a claim is 0 to {most} {unit}"));
+            }
+        }
     }
     Ok(welcome)
 }

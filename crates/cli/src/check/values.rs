@@ -11,6 +11,8 @@ use std::fmt;
 
 /// The largest tolerance, in ulp: half of the digits of `f64`. A larger one promises nothing.
 pub const MAX_TOLERANCE: f64 = 67_108_864.0;
+/// The largest absolute error that a port may claim, in bits: a thousandth of what a cell can hold.
+pub const MAX_ABSOLUTE: f64 = 0.001;
 /// The tolerance that means the nearest float.
 pub const NEAREST: f64 = 0.5;
 

@@ -3,7 +3,7 @@
 use super::judge::{Answered, Judged};
 use super::values::Want;
 use super::vectors::Test;
-use super::{Cause, Kind, TestFailure};
+use super::{Cause, Kind, Role, TestFailure};
 use crate::hex_float;
 use crate::one_line::one_line;
 use crate::output::{Number, short};
@@ -57,7 +57,9 @@ pub(super) fn wanted(test: &Test) -> String {
 pub(super) fn answered(failure: &TestFailure) -> String {
     match failure {
         TestFailure::Answer(Judged { answer, error, .. }) => {
-            let off = error.map(|error| format!(", {} ulp off", short(error.ulp))).unwrap_or_default();
+            let off = error
+                .map(|error| format!(", {} ulp off, {} absolutely", short(error.ulp), short(error.absolute)))
+                .unwrap_or_default();
             match answer {
                 Answered::Float(_, text) => one_line(&float(text)) + &off,
                 Answered::Count(count) => count.to_string(),
@@ -79,8 +81,8 @@ fn cut(text: &str) -> String {
 
 /// Returns a cause with its evidence, for an operation with so many failures.
 pub(super) fn cause(cause: &Cause, failures: usize) -> String {
-    let Cause { kind, name, note, explained, tests, elsewhere, .. } = cause;
-    match (kind, elsewhere) {
+    let Cause { role, kind, name, note, explained, tests, elsewhere, .. } = cause;
+    let evidence = match (kind, elsewhere) {
         (Kind::Trap, _) => {
             format!("{name}: {note}: so are {explained} of {tests} answers that would show it")
         }
@@ -88,5 +90,9 @@ pub(super) fn cause(cause: &Cause, failures: usize) -> String {
             format!("{name}: {explained} of {tests} such tests fail, {failed} of {all} others: {note}")
         }
         _ => format!("{note}: {explained} of {failures} failures"),
+    };
+    match role {
+        Role::Cause => evidence,
+        Role::Pattern => format!("a pattern: {evidence}"),
     }
 }

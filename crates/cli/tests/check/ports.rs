@@ -4,8 +4,9 @@ use super::fixture::AS_PORT;
 use mean_information::Real;
 use mean_information_cli::hex_float;
 use mean_information_cli::port;
-use mean_information_cli::protocol::{Answer, Argument, Reply, Request, Run};
+use mean_information_cli::protocol::{Answer, Argument, Claim, Reply, Request, Run};
 use serde_json::{Value, json};
+use std::collections::BTreeMap;
 use std::io::{self, BufRead, Write};
 use std::process::{Command, Stdio, exit};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -69,7 +70,9 @@ pub(crate) fn serve(fault: &str, rest: &[String]) {
                     waiting.fetch_sub(1, Ordering::SeqCst);
                     continue;
                 }
-                answer.line()
+                let debugging =
+                    if fault == "debugs" { format!("p = {:?}\n", run.args) } else { String::new() };
+                debugging + &answer.line()
             }
             Request::Start { .. } => welcome(fault),
             Request::Stop => match fault {
@@ -179,14 +182,20 @@ fn welcome(fault: &str) -> String {
         "garbled" => return "hello".to_owned(),
         "no-protocol" => return "{\"formats\":[\"f64\"]}".to_owned(),
         "no-list" => return "{\"protocol\":1,\"formats\":\"f64\"}".to_owned(),
-        "negative-claim" => welcome.claims = [("*".to_owned(), -1.0)].into(),
-        "huge-claim" => welcome.claims = [("cell.*".to_owned(), 1e300)].into(),
+        "negative-claim" => welcome.claims = claims(&[("*", -1.0, 0.0)]),
+        "huge-claim" => welcome.claims = claims(&[("cell.*", 1e300, 0.0)]),
         "double-only" => welcome.formats = vec!["f64".to_owned(), "f80".to_owned()],
         "half" => welcome.ops = vec!["cell.information".to_owned(), "cell.entopy".to_owned()],
-        "claims" => welcome.claims = [("cell.*".to_owned(), 4.0), ("mop.*".to_owned(), 3.0)].into(),
+        "huge-bits" => welcome.claims = claims(&[("cell.*", 0.0, 0.5)]),
+        "claims" => welcome.claims = claims(&[("cell.*", 4.0, 0.0), ("mop.*", 3.0, 0.0)]),
+        "claims-bits" => welcome.claims = claims(&[("cell.*", 0.0, 2e-16)]),
         _ => {}
     }
     welcome.line()
+}
+
+fn claims(claims: &[(&str, f64, f64)]) -> BTreeMap<String, Claim> {
+    claims.iter().map(|&(op, ulp, bits)| (op.to_owned(), Claim { ulp, bits })).collect()
 }
 
 /// What a wrong implementation answers.
@@ -228,6 +237,7 @@ fn reply(fault: &str, run: &Run) -> Reply {
             Reply::Result(hex_float::format(f32::from_bits((x as f32).to_bits() + 1)).into())
         }
         ("claims" | "next", Some(x)) => float(f64::from_bits(x.to_bits() + 1)),
+        ("claims-bits" | "off-by-bits", Some(x)) if !single => float(x + 1.5e-16),
         ("skips-all", _) => Reply::Skipped("too busy".to_owned()),
         ("skips", Some(_)) if single => Reply::Skipped("no \u{1b}single precision".to_owned()),
         ("counts-all", _) if count => match &run.args["cells"] {

@@ -12,6 +12,7 @@ pub(crate) const TESTS: &[Test] = &[
     ("a_port_that_ends_only_when_asked_ahead", a_port_that_ends_only_when_asked_ahead),
     ("a_port_that_never_flushes", a_port_that_never_flushes),
     ("a_port_that_ends_at_every_request", a_port_that_ends_at_every_request),
+    ("a_port_that_prints_for_people", a_port_that_prints_for_people),
     ("troubles_at_the_end", troubles_at_the_end),
     ("ports_that_are_not_checked", ports_that_are_not_checked),
     ("what_a_port_leaves_behind_is_ended", what_a_port_leaves_behind_is_ended),
@@ -98,6 +99,21 @@ fn a_port_that_ends_at_every_request() {
     }
 }
 
+/// Three of its lines are enough, whatever the operation.
+fn a_port_that_prints_for_people() {
+    let vectors = Vectors::new();
+    let table = vectors.table("debugs", &SHORT, "0 passed, 44 failed, 0 skipped");
+    for part in [
+        "given up, the rest has failed: 3 lines that are no answers",
+        "belongs on standard error",
+        "a line that is no answer, which is not JSON (expected value at column 1): 'p = {\"p\": Float",
+        "not run after too much trouble: 37 of 40",
+        "started again, 2 times in all",
+    ] {
+        assert!(table.contains(part), "{part}: {table}");
+    }
+}
+
 fn troubles_at_the_end() {
     let vectors = Vectors::new();
     for (fault, what) in [
@@ -131,8 +147,9 @@ fn ports_that_are_not_checked() {
         ("no-ops", "\"ops\" is empty"),
         ("strange-ops", "cell.entopy"),
         ("no-formats", "f16"),
-        ("negative-claim", "a claim is 0 to 67108864"),
-        ("huge-claim", "a claim is 0 to 67108864"),
+        ("negative-claim", "a claim is 0 to 67108864 ulp"),
+        ("huge-claim", "a claim is 0 to 67108864 ulp"),
+        ("huge-bits", "a claim is 0 to 0.001 bits"),
     ] {
         let line = vectors.refusal(fault, &SHORT);
         assert!(line.contains(what) && line.contains(fault), "{fault}: {line}");

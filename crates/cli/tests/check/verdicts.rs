@@ -9,6 +9,7 @@ use std::fs;
 pub(crate) const TESTS: &[Test] = &[
     ("a_right_port_passes", a_right_port_passes),
     ("claims_are_allowed_and_shown", claims_are_allowed_and_shown),
+    ("absolute_errors_are_allowed_and_shown", absolute_errors_are_allowed_and_shown),
     ("nothing_passed_is_no_success", nothing_passed_is_no_success),
     ("what_is_not_declared_is_skipped", what_is_not_declared_is_skipped),
     ("operations_are_chosen", operations_are_chosen),
@@ -36,6 +37,22 @@ fn claims_are_allowed_and_shown() {
     assert!(table.contains("34 answers pass only by the port's claims"), "{table}");
     // The same answers without the claim.
     vectors.table("next", &[], "10 passed, 34 failed, 0 skipped");
+}
+
+fn absolute_errors_are_allowed_and_shown() {
+    let vectors = Vectors::new();
+    let (status, table) = vectors.check("claims-bits", &[]);
+    assert_eq!((status, table.lines().last()), (0, Some("44 passed, 0 failed, 0 skipped")), "{table}");
+    assert!(table.contains("2e-16 bits claimed"), "{table}");
+    let json = vectors.json("claims-bits", &[]);
+    let row = &json["operations"][0]["formats"][0];
+    assert_eq!((&row["claimed_bits"], &row["claimed_ulp"]), (&2e-16.into(), &Value::Null));
+    let worst = row["worst_error_absolute"].as_f64().unwrap();
+    assert!((1e-16..2e-16).contains(&worst), "{worst}");
+    assert_eq!(json["port"]["claims"][0]["bits"], 2e-16);
+    // The same answers without the claim.
+    let failed = vectors.json("off-by-bits", &[])["failed"].as_u64().unwrap();
+    assert!(failed > 0 && json["passed_by_claim"] == failed, "{failed}: {json}");
 }
 
 /// A port that is asked nothing it answers has not been checked.
@@ -208,6 +225,6 @@ fn csv_and_json_have_the_same_rows() {
             row["format"].as_str().unwrap()
         )));
     }
-    assert_twins(rows[0], 1);
+    assert_twins(rows[0], 2);
     assert_eq!((&rows[0]["failed"], &rows[0]["cause"]), (&17.into(), &"nats".into()));
 }

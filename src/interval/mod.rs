@@ -4,6 +4,7 @@
 
 mod complex;
 mod endpoint;
+mod powers;
 mod wide;
 
 pub(crate) use complex::Complex;
@@ -148,16 +149,6 @@ impl<T: Endpoint> Interval<T> {
         if common.is_empty() { Self::EMPTY } else { common }
     }
 
-    /// `x^2`, which is not `x x` where `x` can have either sign.
-    pub(crate) fn square(self) -> Self {
-        let (large, small) = (self.magnitude(), max(max(self.lower, -self.upper), T::ZERO));
-        if self.is_empty() {
-            self
-        } else {
-            Self { lower: small.mul(small, Down), upper: large.mul(large, Up) }
-        }
-    }
-
     /// The values of a rising function, of which `at` encloses one; both ends at once for a point.
     fn rising(self, at: impl Fn(T) -> Self) -> Self {
         let lower = at(self.lower);
@@ -257,6 +248,18 @@ impl<T: Endpoint> Scalar for Interval<T> {
 
     fn ln_2() -> Self {
         T::LN_2
+    }
+
+    fn square(self) -> Self {
+        self.power(2)
+    }
+
+    fn powi(self, n: i32) -> Self {
+        self.power(n)
+    }
+
+    fn x_ln_x(self) -> Self {
+        self.times_logarithm()
     }
 
     fn exp(self) -> Self {

@@ -10,6 +10,9 @@
 mod gauss;
 mod nodes;
 mod search;
+mod survey;
+
+use alloc::vec::Vec;
 
 use crate::error::Error;
 use crate::estimate::{Enclosure, Status};
@@ -185,6 +188,13 @@ impl<T: Real> Rigorous<T> {
             relative: self.tolerance.relative.widen(),
         })
     }
+}
+
+/// Returns break points between two floats that crowd where ranges leave most of `∫ |f|` open, as about a peak, and the
+/// number of evaluations.
+pub(crate) fn break_points(f: &impl Integrand, from: f64, to: f64, limit: u64) -> (Vec<f64>, u64) {
+    let mut search = Search { f, from, to, evaluations: 0, limit };
+    (survey::break_points(&mut search), search.evaluations)
 }
 
 /// Returns the float below `x`, and the integral from there to `x`.

@@ -5,6 +5,7 @@ use alloc::vec;
 
 use super::Integral;
 use super::gauss::{self, Chooser};
+use super::survey;
 use crate::estimate::Status;
 use crate::interval::{Endpoint, Interval, Toward, Wide};
 use crate::quadrature::Tolerance;
@@ -44,18 +45,15 @@ const MOST_EVALUATIONS: u64 = 72;
 /// A panel may take this share of the width that is left.
 const SHARE: f64 = 1.0 / 32.0;
 /// A panel narrower than this share of the whole is not cut any more.
-const NARROWEST: f64 = 1.0 / (1_u128 << 120) as f64;
+pub(super) const NARROWEST: f64 = 1.0 / (1_u128 << 120) as f64;
 /// The finest width of sums in 128 bits relative to the integral of the magnitude, above their roundings: lemma (128
 /// bits).
 const ROUND_OFF: f64 = 1.0 / (1_u128 << 66) as f64;
-/// An estimate this much below the crudest bound is not trusted.
-const DOUBT: f64 = 1.0 / (1_u64 << 20) as f64;
-
 impl<F: Integrand> Search<'_, F> {
     /// Encloses the integral, within the tolerance if that can be.
     pub(super) fn run(&mut self, tolerance: Tolerance<f64>) -> Integral {
         let wanted = |magnitude: f64| tolerance.of(magnitude);
-        let mut target = wanted(self.estimate()).min(f64::MAX) / 4.0;
+        let mut target = wanted(self.estimate(tolerance)).min(f64::MAX) / 4.0;
         let mut value = Interval::WHOLE;
         loop {
             // Half of the evaluations that are left: if they are too few, there are some for a laxer tolerance.
@@ -80,7 +78,7 @@ impl<F: Integrand> Search<'_, F> {
     }
 
     /// Estimates the magnitude of the integral: a tolerance to begin with.
-    pub(super) fn estimate(&mut self) -> f64 {
+    pub(super) fn estimate(&mut self, tolerance: Tolerance<f64>) -> f64 {
         let (centre, radius) = (0.5 * self.from + 0.5 * self.to, 0.5 * self.to - 0.5 * self.from);
         let mut sum = 0.0;
         for (node, weight) in gauss::floats() {
@@ -90,9 +88,7 @@ impl<F: Integrand> Search<'_, F> {
                 self.evaluations += 1;
             }
         }
-        let range: Interval<f64> = self.range(self.from, self.to);
-        let crude = if range.is_bounded() { 2.0 * range.magnitude() } else { 0.0 };
-        radius * sum.abs().max(crude * DOUBT)
+        survey::magnitude(self, radius * sum.abs(), tolerance)
     }
 
     /// Adds up the panels, with a width of about `target`, from evaluations up to a limit.
@@ -160,7 +156,7 @@ impl<F: Integrand> Search<'_, F> {
     }
 
     /// Encloses the values of the integrand between `a` and `b`.
-    fn range<T: Endpoint>(&mut self, a: f64, b: f64) -> Interval<T> {
+    pub(super) fn range<T: Endpoint>(&mut self, a: f64, b: f64) -> Interval<T> {
         self.evaluations += 1;
         self.f.evaluate(Interval::constant(a).hull(Interval::constant(b)))
     }

@@ -2,6 +2,7 @@
 
 mod edges;
 mod relations;
+mod unseen;
 
 use super::battery::{Case, cases};
 use super::common::power;
@@ -52,10 +53,10 @@ fn no_claim_is_below_the_truth_f64() {
     no_claim_is_below_the_truth::<f64>(&[1e-3, 1e-6, 1e-10, 1e-13], 0);
 }
 
-/// One integrand overflows: `x^-0.9 ln(1/x)`, at subnormal arguments.
+/// One integrand overflows: `x^-0.9 ln(1/x)`, at subnormal arguments; the panel that had a value stays.
 #[test]
 fn no_claim_is_below_the_truth_f32() {
-    no_claim_is_below_the_truth::<f32>(&[1e-2, 1e-4, 1e-6], 1);
+    no_claim_is_below_the_truth::<f32>(&[1e-2, 1e-4, 1e-6], 0);
 }
 
 /// `√(ln 4)`.
@@ -114,7 +115,8 @@ proptest! {
         let size: f64 = coefficients.iter().map(|&c| 2.0 * half * f64::from(c).abs()).sum();
         let slack = 8.0 * f64::EPSILON * size;
         prop_assert!((estimate.value - exact).abs() <= estimate.error + slack, "{:?} for {}", estimate, exact);
-        prop_assert_eq!(estimate.status, Status::Converged);
+        let is_nothing = coefficients.iter().all(|&c| c == 0);
+        prop_assert_eq!(estimate.status, if is_nothing { Status::AllZero } else { Status::Converged });
     }
 
     /// Peaks of every width, with a break point at the top.

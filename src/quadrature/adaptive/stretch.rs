@@ -28,10 +28,14 @@ impl<T: Real> Stretch<T> {
         [(middle - offset).max(self.lower), (middle + offset).min(self.upper)]
     }
 
+    /// Cuts the stretch at an argument.
+    pub(super) fn cut_at(self, x: T) -> [Self; 2] {
+        [Self { upper: x, ..self }, Self { lower: x, ..self }]
+    }
+
     /// Cuts the stretch in the middle.
     pub(super) fn halves(self) -> [Self; 2] {
-        let middle = self.midpoint();
-        [Self { upper: middle, ..self }, Self { lower: middle, ..self }]
+        self.cut_at(self.midpoint())
     }
 
     /// Returns true if floats are dense enough for the outermost nodes to stay off the ends, by some 8 spacings: with

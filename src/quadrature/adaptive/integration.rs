@@ -53,18 +53,19 @@ impl<'a, T: Real, F: FnMut(T) -> T> Integration<'a, T, F> {
             }
             let error = totals.reducible + totals.fixed;
             let tolerance = self.settings.tolerance.of(value.abs());
-            let step = if error <= tolerance {
-                match self.next_outer_gap() {
-                    // No panel stands beside the outer ends: a value tells what their gaps hide.
-                    Some((place, side)) => self.look(place, side),
-                    None if self.all_zero => Err(Status::AllZero),
-                    None => Err(Status::Converged),
-                }
+            let end = if error <= tolerance {
+                Some(if self.all_zero { Status::AllZero } else { Status::Converged })
             } else if totals.fixed > tolerance && totals.reducible <= totals.fixed {
                 // More halving would spend evaluations on the smaller half of the claim.
-                Err(self.out_of_reach(totals.fixed))
+                Some(self.out_of_reach(totals.fixed))
             } else {
-                self.reduce(&totals)
+                None
+            };
+            let step = match (end, self.next_outer_gap()) {
+                // No panel stands beside the outer ends: a value tells what their gaps hide.
+                (Some(_), Some((place, side))) => self.look(place, side),
+                (Some(status), None) => Err(status),
+                (None, _) => self.reduce(&totals),
             };
             if let Err(status) = step {
                 return self.ended(value, error, status);
@@ -177,9 +178,13 @@ impl<'a, T: Real, F: FnMut(T) -> T> Integration<'a, T, F> {
 
     /// Returns the estimate at the end; one that is not finite has the value NaN and an infinite error.
     fn ended(&self, value: T, error: T, status: Status<T>) -> Estimate<T> {
-        let [value, error] = match status {
-            Status::NotFinite { .. } => [T::nan(), T::infinity()],
-            _ => [value, error],
+        let (value, error, status) = match status {
+            Status::NotFinite { .. } => (T::nan(), T::infinity(), status),
+            // Values next to the ends alone, over an interval of no float between.
+            Status::Converged if error.is_zero() && !self.all_zero => {
+                (value, T::from_parts(1, T::MIN_EXPONENT), Status::RoundOff)
+            }
+            _ => (value, error, status),
         };
         Estimate { value, error, status, evaluations: self.evaluations }
     }

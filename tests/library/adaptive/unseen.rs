@@ -80,8 +80,8 @@ fn none_is_false(families: &[Family], relatives: &[f64], places: u32) {
 }
 
 #[test]
-fn three_hundred_places() {
-    none_is_false(&FAMILIES, &[1e-3, 1e-8, 1e-12], 300);
+fn a_hundred_places() {
+    none_is_false(&FAMILIES, &[1e-3, 1e-8, 1e-12], 100);
 }
 
 /// Some minutes: `cargo test --release --test library -- --ignored --nocapture twenty_thousand_places`.

@@ -47,7 +47,9 @@ impl<T: Real> Panel<T> {
             let apart = (value - own).abs();
             if self.seems_smooth() { apart } else { apart.min(self.spread) }
         };
+        // What the polynomial of the panel beside says, without one more evaluation.
         let jump = beside.map_or(T::zero(), |beside| apart(beside.ends[1 - side]));
+        // A witness that the nodes have passed says nothing about the gap.
         let nodes = self.stretch.pair(rule.outermost());
         let is_in_gap = |x: T| if side == 0 { x < nodes[0] } else { nodes[1] < x };
         // Twice the bound: of a kink beside the outermost node, inside, the polynomial follows half.
@@ -57,6 +59,7 @@ impl<T: Real> Panel<T> {
             Some((x, value)) if is_in_gap(x) => {
                 self.stretch.widths(gap * apart(value)) + jump * self.stretch.step(whole)
             }
+            // Lemma (gap).
             _ => self.stretch.widths(gap * jump),
         };
         // A value that is no number tells nothing.
@@ -80,6 +83,7 @@ impl<T: Real> Panel<T> {
     /// Returns the side of which the doubt is most of the reducible claim.
     pub(super) fn doubtful_side(&self) -> Option<usize> {
         let side = usize::from(self.doubts[1] > self.doubts[0]);
+        // Below the noise it is noise; below the own claim halving serves both.
         (self.doubts[side] > self.reducible && self.doubts[side] > self.fixed).then_some(side)
     }
 }

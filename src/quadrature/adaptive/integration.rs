@@ -51,6 +51,7 @@ impl<'a, T: Real, F: FnMut(T) -> T> Integration<'a, T, F> {
             if !value.is_finite() {
                 return self.ended(value, value, not_finite(self.whole));
             }
+            // The sum of all claims: they may all err to one side.
             let error = totals.reducible + totals.fixed;
             let tolerance = self.settings.tolerance.of(value.abs());
             let end = if error <= tolerance {
@@ -102,6 +103,7 @@ impl<'a, T: Real, F: FnMut(T) -> T> Integration<'a, T, F> {
     fn reduce(&mut self, totals: &Totals<T>) -> Result<(), Status<T>> {
         let (rule, place) = (self.settings.rule, totals.worst);
         let worst = *self.panels.at(place);
+        // What a gap hides is dealt with before what the nodes see.
         let doubtful = worst.doubtful_side();
         if let Some(side) = doubtful
             && worst.witnesses[side].is_none()
@@ -118,6 +120,7 @@ impl<'a, T: Real, F: FnMut(T) -> T> Integration<'a, T, F> {
             self.settle(place);
             return Ok(());
         }
+        // Both halves or none: a panel is never replaced by a part of it.
         if self.settings.limit - self.evaluations < 2 * rule.evaluations() {
             return Err(Status::EvaluationLimit);
         }
@@ -134,6 +137,7 @@ impl<'a, T: Real, F: FnMut(T) -> T> Integration<'a, T, F> {
         }
         let [mut left, mut right] =
             if doubtful.is_some() { halves } else { compared(&worst, halves, totals.fixed) };
+        // Outer ends stay where they are, and so do their witnesses; the new end between has none.
         (left.witnesses[0], right.witnesses[1]) = (worst.witnesses[0], worst.witnesses[1]);
         self.panels.replace(place, left);
         let other = self.panels.push(right, Some(place));
@@ -203,8 +207,10 @@ fn not_finite<T>(stretch: Stretch<T>) -> Status<T> {
 /// bands fall by less than half, as those of any peak at its end do.
 fn claimed<T: Real>(reading: &Reading<T>, stretch: Stretch<T>, parent: Option<&Panel<T>>) -> Panel<T> {
     let Reading { value, difference, decay, noise, spread, ends, .. } = *reading;
+    // The slowest of the bands' fall and of the last two halvings' ("Slow convergence").
     let ratio = match parent {
         Some(parent) => decay.max(difference / parent.difference),
+        // A first panel has no history: its bands must fall to less than half.
         None if decay < T::HALF => decay,
         None => T::one(),
     };
@@ -247,7 +253,9 @@ const ALIKE: u64 = 8;
 /// noise, which no halving reduces.
 pub(super) fn compared<T: Real>(whole: &Panel<T>, halves: [Panel<T>; 2], fixed: T) -> [Panel<T>; 2] {
     let times = T::from_parts(ALIKE, 0);
+    // A smooth integrand would have reduced both, a singular point one.
     let alike = halves.iter().all(|half| times * half.difference > whole.difference);
+    // Noise is searched in the lower half of the digits only: above it a kink may look alike.
     let half_the_digits = T::from_parts(1, T::PRECISION as i32 / 2);
     if alike && whole.alike && whole.difference < half_the_digits * fixed {
         halves.map(|half| Panel { reducible: T::zero(), fixed: half.fixed + times * half.difference, ..half })

@@ -89,6 +89,7 @@ impl<T: Real> Panels<T> {
     /// Adds a panel at the next free place, to the right of the one at another.
     pub(super) fn push(&mut self, panel: Panel<T>, after: Option<usize>) -> usize {
         let place = self.places.len();
+        // The panel after that one gets a new neighbour, too.
         let next = after.and_then(|after| self.places[after].0.beside[1].replace(place));
         if let Some(next) = next {
             self.places[next].0.beside[0] = Some(place);
@@ -114,6 +115,7 @@ impl<T: Real> Panels<T> {
     /// Doubts anew a panel and those beside it.
     pub(super) fn doubt(&mut self, place: usize, whole: Stretch<T>, rule: Rule) {
         let [before, after] = self.places[place].0.beside;
+        // An end belongs to two panels: either's polynomial is compared with the other's.
         for place in [before, Some(place), after].into_iter().flatten() {
             let panel = self.places[place].0;
             let beside = panel.beside.map(|other| other.map(|other| &self.places[other].0));
@@ -133,6 +135,7 @@ impl<T: Real> Panels<T> {
         loop {
             // Always a sum over panels, never a corrected one: large early claims leave no trace ("Halving the worst").
             let mut totals = alone(place, &self.places[place].0);
+            // As in a heap: the places below are at twice this one.
             for below in [2 * place + 1, 2 * place + 2] {
                 if let Some((_, other)) = self.places.get(below) {
                     totals = totals.merged(*other);
@@ -142,6 +145,7 @@ impl<T: Real> Panels<T> {
             if place == 0 {
                 return;
             }
+            // Only the way to the root has changed.
             place = (place - 1) / 2;
         }
     }

@@ -134,6 +134,7 @@ impl Rule {
         for (i, &node) in table.nodes.iter().enumerate() {
             [values[i], values[last - i]] = stretch.pair(T::nearest(node));
         }
+        // Arguments become values in place, from the lowest upwards.
         for value in values.iter_mut() {
             *value = f(*value);
         }
@@ -153,25 +154,31 @@ impl Table {
         for (i, (&weight, band)) in self.kronrod.iter().zip(self.bands).enumerate() {
             // The middle node counts once.
             let before = if i == last - i { T::zero() } else { values[i] };
+            // The value at the mirrored node.
             let after = values[last - i];
             let [low, high] = [before, after].map(|value| half(weight) * value);
+            // Q_K, with what its additions lose ("Halving the worst").
             by_all = by_all.plus(low).plus(high);
             // The mean of |g|, for the noise: 5 epsilon of it ("Rounding").
             size = size + (low.abs() + high.abs());
+            // Q_G: every second node is one of Gauss.
             if i % 2 == 1 {
                 let weight = half(self.gauss[i / 2]);
                 by_gauss = by_gauss.plus(weight * before).plus(weight * after);
             }
             // P_k is even or odd with k: one product serves both sides.
+            // Lagrange's weights at either end ("What the ends hide").
             let [near, far] = self.ends[i].map(T::nearest);
             ends[0] = ends[0] + (near * before + far * after);
             ends[1] = ends[1] + (near * after + far * before);
             let by_parity = [high + low, high - low];
+            // a_k = Σ w_i √(2k + 1) P_k(x_i) g(x_i) / 2, weights and halves being in the products already.
             for (k, coefficient) in series.iter_mut().enumerate() {
                 *coefficient = *coefficient + T::nearest(band[k]) * by_parity[k % 2];
             }
         }
 
+        // β1 and β2: four coefficients each, so that neither parity is missed.
         let [lower, upper] = [&series[..4], &series[4..]]
             .map(|band| band.iter().fold(T::zero(), |sum, coefficient| sum + coefficient.abs()));
         // β2 / β1 ("Agreement by accident"); 1 where nothing falls.
@@ -220,6 +227,7 @@ fn noise<T: Real>(values: &[T], size: T, stretch: Stretch<T>) -> T {
     } else {
         T::from_parts(4 * MOST as u64, T::MIN_EXPONENT)
     };
+    // 10 u ∫ |g| + 8 u X Σ |g(x_(i+1)) - g(x_i)|, with 2u = epsilon ("Rounding").
     stretch.widths(five * epsilon * size + floor) + four * variation * stretch.magnitude() + floor
 }
 
@@ -258,6 +266,7 @@ const fn ends<const N: usize>(nodes: &[f64; N]) -> [[f64; 2]; N] {
         let (mut near, mut far, mut j) = (1.0, 1.0, 0);
         while j < N {
             let y = nodes[j];
+            // The nodes of the same sign.
             if j != i {
                 near *= (1.0 - y) / (x - y);
                 far *= (1.0 - y) / (-x - y);
@@ -265,6 +274,7 @@ const fn ends<const N: usize>(nodes: &[f64; N]) -> [[f64; 2]; N] {
             // The mirrored node, but for the middle one, which is its own.
             if j + 1 < N {
                 if j == i {
+                    // Of a node the other one is its mirror image.
                     near *= (1.0 + y) / (x + y);
                     far *= (1.0 - y) / (-x - y);
                 } else {

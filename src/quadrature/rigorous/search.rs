@@ -53,6 +53,7 @@ impl<F: Integrand> Search<'_, F> {
     /// Encloses the integral, within the tolerance if that can be.
     pub(super) fn run(&mut self, tolerance: Tolerance<f64>) -> Integral {
         let wanted = |magnitude: f64| tolerance.of(magnitude);
+        // A quarter: rounding to the result's format, and the shares of later panels, take the rest.
         let mut target = wanted(self.estimate(tolerance)).min(f64::MAX) / 4.0;
         let mut value = Interval::WHOLE;
         loop {
@@ -69,6 +70,7 @@ impl<F: Integrand> Search<'_, F> {
             };
             // Too wide, though every panel is as narrow as was asked for: ask for more, if there is more.
             let finer = wanted.max(ROUND_OFF * sum.size) / 4.0;
+            // Any target is sound: it decides the work only ("Panels").
             target = match status {
                 Status::RoundOff if finer < target / 2.0 => finer,
                 Status::EvaluationLimit if self.evaluations + MOST_EVALUATIONS < self.limit => target * LAXER,
@@ -84,6 +86,7 @@ impl<F: Integrand> Search<'_, F> {
         for (node, weight) in gauss::floats() {
             for x in [centre - radius * node, centre + radius * node] {
                 let value: f64 = self.f.evaluate(x);
+                // A node may hit a singular point: an estimate does without.
                 sum += if value.is_finite() { weight * value } else { 0.0 };
                 self.evaluations += 1;
             }
@@ -98,11 +101,14 @@ impl<F: Integrand> Search<'_, F> {
         let mut chooser = Chooser::new();
         let mut panels = vec![(self.from, self.to)];
         while let Some((a, b)) = panels.pop() {
+            // One evaluation is kept for each panel that waits: all of them are enclosed.
             let limited = self.evaluations + panels.len() as u64 + MOST_EVALUATIONS > limit;
             match self.panel(&mut chooser, a, b, left * SHARE, limited) {
                 Panel::Enclosed { value, status } => {
+                    // What a panel does not use is left to those after it.
                     left -= width(value).min(left * SHARE);
                     sum.value = sum.value + value;
+                    // Roundings are relative to this, also where the sum cancels: lemma (128 bits).
                     sum.size += value.magnitude().to_real::<f64>(Toward::Up);
                     if status != Status::Converged {
                         sum.status = status;
@@ -144,11 +150,13 @@ impl<F: Integrand> Search<'_, F> {
         }
         // In floats it is noise: once more in 128 bits.
         let range: Interval<Wide> = self.range(a, b);
+        // Both contain the integral.
         let strip = strip.intersection(length * range);
         if can_be_cut && width(strip) > allowed && !self.is_noise(range, middle) {
             return Panel::Cut(middle);
         }
         let unresolved = Status::Unresolved { lower: a, upper: b };
+        // An integrand without bound cannot be enclosed by ranges.
         if !strip.is_bounded() {
             return Panel::Failed(unresolved);
         }

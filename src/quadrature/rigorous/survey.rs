@@ -42,6 +42,7 @@ impl Panel {
 
     /// Returns the length times a bound on the range: a float, as nothing is proved by it.
     fn times(&self, bound: f64) -> f64 {
+        // Halves of the ends cannot overflow; 0 times no bound is 0.
         if bound == 0.0 { 0.0 } else { (0.5 * self.to - 0.5 * self.from) * bound * 2.0 }
     }
 
@@ -82,6 +83,7 @@ fn crowded(search: &mut Search<'_, impl Integrand>, is_enough: impl Fn(f64) -> b
     let last = search.evaluations + (search.limit.saturating_sub(search.evaluations) / SHARE).min(MOST);
     loop {
         let most = total(&panels, Interval::magnitude);
+        // Both bounds are on ∫ |f|, so that nothing cancels.
         let is_known = APART * total(&panels, Interval::mignitude) >= most;
         if is_known || is_enough(most) || search.evaluations + 2 > last || !halve_worst(search, &mut panels) {
             return panels;
@@ -98,6 +100,7 @@ fn total(panels: &[Panel], bound: impl Fn(&Interval<f64>) -> f64) -> f64 {
 fn halve_worst(search: &mut Search<'_, impl Integrand>, panels: &mut Vec<Panel>) -> bool {
     let worst = (0..panels.len()).max_by(|&i, &j| {
         let [first, second] = [i, j].map(|k| (panels[k].open(), panels[k].to - panels[k].from));
+        // Of panels without bound the longest.
         first.0.total_cmp(&second.0).then(first.1.total_cmp(&second.1))
     });
     let Some(worst) = worst else { return false };

@@ -10,6 +10,9 @@ use crate::real::Real;
 pub enum Status<T> {
     /// The error or the width is within the tolerance that was asked for.
     Converged,
+    /// Within the tolerance, if the integrand is 0; for that was every value that was seen. A peak between the nodes of an
+    /// integrand that underflows beside it looks alike: give break points about it.
+    AllZero,
     /// The limit on evaluations came first. The result holds, with the error or the width it states.
     EvaluationLimit,
     /// Rounding errors keep the tolerance out of reach. The result holds, with the error or the width it states.
@@ -35,6 +38,7 @@ impl Status<f64> {
     pub(crate) fn nearest<T: Real>(self) -> Status<T> {
         match self {
             Self::Converged => Status::Converged,
+            Self::AllZero => Status::AllZero,
             Self::EvaluationLimit => Status::EvaluationLimit,
             Self::RoundOff => Status::RoundOff,
             Self::Unresolved { lower, upper } => {

@@ -102,17 +102,6 @@ impl<T: Endpoint> Interval<T> {
         if common.is_empty() { Self::EMPTY } else { common }
     }
 
-    /// Computes `x^2`, which is narrower than `x x` if `x` can have either sign.
-    pub(crate) fn square(self) -> Self {
-        // The magnitudes in the interval go from 0, or from the end nearer to 0, to the larger one.
-        let (large, small) = (self.magnitude(), max(max(self.lower, -self.upper), T::ZERO));
-        if self.is_empty() {
-            self
-        } else {
-            Self { lower: small.mul(small, Down), upper: large.mul(large, Up) }
-        }
-    }
-
     /// Encloses the values of a rising function; `at` encloses its value at one number. A point is evaluated once.
     pub(super) fn rising(self, at: impl Fn(T) -> Self) -> Self {
         // Rising: the lower end of the first value, the upper end of the last.
@@ -220,6 +209,18 @@ impl<T: Endpoint> Scalar for Interval<T> {
 
     fn ln_2() -> Self {
         T::LN_2
+    }
+
+    fn square(self) -> Self {
+        self.power(2)
+    }
+
+    fn powi(self, n: i32) -> Self {
+        self.power(n)
+    }
+
+    fn x_ln_x(self) -> Self {
+        self.times_logarithm()
     }
 
     fn exp(self) -> Self {

@@ -228,6 +228,12 @@ impl Scalar for Complex {
         Self::new(Real::ln_2(), ZERO)
     }
 
+    /// Encloses `re^2 - im^2 + 2 i re im`: neither square is negative.
+    fn square(self) -> Self {
+        let product = self.re * self.im;
+        Self::new(self.re.square() - self.im.square(), product + product)
+    }
+
     /// Encloses `e^re (cos im + i sin im)`.
     fn exp(self) -> Self {
         let magnitude = self.re.exp();

@@ -7,6 +7,7 @@ mod complex;
 mod endpoint;
 mod ends;
 mod floats;
+mod powers;
 mod wide;
 
 pub(crate) use complex::Complex;

@@ -6,7 +6,10 @@ use super::model::{Piece, RadialModel};
 use crate::error::Error;
 use crate::estimate::{Estimate, Status};
 use crate::interval::{Interval, Toward, Wide};
+use alloc::vec::Vec;
+
 use crate::quadrature::adaptive::{GaussKronrod, graded};
+use crate::quadrature::rigorous::break_points;
 use crate::real::Real;
 use crate::scalar::{Integrand, Scalar};
 use num_traits::float::FloatCore;
@@ -16,13 +19,16 @@ use num_traits::{One, Zero};
 ///
 /// The tolerances of `quadrature` are those of the deficit `1 - Ī`, its evaluation limit that of all integrals
 /// together. What is integrated is the entropy in the local coordinate `t` of each piece, with panels that shrink
-/// towards its start; so a peak of any relative width is seen. A piece whose range, an interval, shows that it matters
-/// less than the tolerance is left at that.
+/// towards its start: a peak there is seen if the smallest panel is no wider than it. Where every value is 0, though
+/// the range of the entropy over the piece is not, the piece is integrated again between points that crowd where ranges
+/// are not 0: so a peak of any relative width is seen anywhere, if beside it the entropy is 0 to the floats. A narrow
+/// peak elsewhere, beside which there is entropy, can be missed, and then the claim is false: let a piece start there.
+/// A piece whose range, an interval, shows that it matters less than the tolerance is left at that.
 ///
 /// **Error**: [`Estimate::error`], an estimate: the sum of those of the pieces ([`GaussKronrod`]), and the rounding of the last steps.
 /// Measured: never below the true error in 10 000 random rooms, both weights and formats.
 ///
-/// A room takes at most 511 evaluations at a relative tolerance of `1e-12` in `f64`, by any rule and for any `z / σ`
+/// A room takes at most 515 evaluations at a relative tolerance of `1e-12` in `f64`, by any rule and for any `z / σ`
 /// from `1e-6` to `1e9` (measured: [`quadrature`](crate::book::quadrature)).
 ///
 /// Special case: 0, exactly, for a model that observes nothing.
@@ -78,12 +84,17 @@ pub fn adaptive<M: RadialModel>(
         let part = if most <= allowed {
             Estimate { value: M::Float::zero(), error: most, status: Status::Converged, evaluations: 1 }
         } else {
-            let sign = piece.length.signum();
+            let left = quadrature.limit - sum.evaluations - least(&pieces[index + 1..]);
             let points = graded(piece.length.abs(), M::Float::zero(), ratio(), piece.panels)?;
-            quadrature
-                .absolute(allowed)
-                .limit(quadrature.limit - sum.evaluations - least(&pieces[index + 1..]))
-                .integrate_between(|x| deficit.evaluate(piece.start + sign * x), &points)?
+            let settings = quadrature.absolute(allowed).limit(left);
+            match integrated(&deficit, piece, &settings, &points)? {
+                // Less than the result can show, proved: a tail that floats have lost.
+                blind if blind.status == Status::AllZero && most <= M::Float::epsilon() * whole => {
+                    Estimate { error: most, status: Status::Converged, ..blind }
+                }
+                blind if blind.status == Status::AllZero => seen(&deficit, piece, &settings, blind, most)?,
+                part => part,
+            }
         };
         sum.value = sum.value + part.value;
         sum.error = sum.error + part.error;
@@ -96,6 +107,45 @@ pub fn adaptive<M: RadialModel>(
     let rounding = M::Float::nearest(16.0) * M::Float::epsilon();
     let value = (M::Float::one() - sum.value / whole).max(M::Float::zero());
     Ok(Estimate { value, error: sum.error / whole + rounding, ..sum })
+}
+
+/// Integrates along a piece between points, which are distances from its start.
+fn integrated<T: Real>(
+    deficit: &impl Integrand,
+    piece: &Piece<T>,
+    settings: &GaussKronrod<T>,
+    points: &[T],
+) -> Result<Estimate<T>, Error> {
+    let sign = piece.length.signum();
+    settings.integrate_between(|x| deficit.evaluate(piece.start + sign * x), points)
+}
+
+/// Integrates anew a piece of which every value was 0, though by its range the integral may be `most`: between points
+/// that crowd where ranges find something. If all is 0 again, that bound is the error.
+fn seen<T: Real>(
+    deficit: &impl Integrand,
+    piece: &Piece<T>,
+    settings: &GaussKronrod<T>,
+    blind: Estimate<T>,
+    most: T,
+) -> Result<Estimate<T>, Error> {
+    let [start, end] = [piece.start, piece.start + piece.length].map(T::widen);
+    let left = settings.limit - blind.evaluations;
+    let (points, evaluations) = break_points(deficit, start.min(end), start.max(end), left);
+    let mut distances: Vec<T> = points.iter().map(|&x| T::nearest((x - start).abs())).collect();
+    distances.sort_unstable_by(|a, b| a.widen().total_cmp(&b.widen()));
+    let spent = blind.evaluations + evaluations;
+    let panels = distances.len() as u64 * settings.rule.evaluations();
+    let unseen = Estimate { error: most.max(blind.error), evaluations: spent, ..blind };
+    if settings.limit.saturating_sub(spent) < panels {
+        return Ok(unseen);
+    }
+    let again = integrated(deficit, piece, &settings.limit(settings.limit - spent), &distances)?;
+    let evaluations = spent + again.evaluations;
+    match again.status {
+        Status::AllZero => Ok(Estimate { evaluations, ..unseen }),
+        _ => Ok(Estimate { evaluations, ..again }),
+    }
 }
 
 /// Bounds the integral over a piece by the range of the integrand: enough to know of a tail.

@@ -2,6 +2,7 @@
 
 mod edges;
 mod relations;
+mod unseen;
 
 use super::common::power;
 use mean_information::Real;
@@ -37,7 +38,11 @@ fn no_claim_is_below_the_truth<T: Real + num_traits::Float>(tolerances: &[f64], 
                 assert!(case.error(value.widen()) <= error.widen(), "{context}");
                 let infinite = error.widen().is_infinite();
                 assert!(!infinite || matches!(status, Status::Unresolved { .. }), "{context}");
-                assert!(!infinite || T::FORMAT == "f32", "{context}");
+                // Points that nobody named, away from 0, which floats do not resolve to 13 digits.
+                assert!(
+                    !infinite || T::FORMAT == "f32" || ["jump", "gsl-454"].contains(&case.family),
+                    "{context}"
+                );
                 if status == Status::Converged {
                     assert!(error <= T::nearest(tolerance) * T::nearest(value.widen().abs()), "{context}");
                 }
@@ -52,10 +57,36 @@ fn no_claim_is_below_the_truth_f64() {
     no_claim_is_below_the_truth::<f64>(&[1e-3, 1e-6, 1e-10, 1e-13], 0);
 }
 
-/// One integrand overflows: `x^-0.9 ln(1/x)`, at subnormal arguments.
+/// One integrand overflows: `x^-0.9 ln(1/x)`, at subnormal arguments; the panel that had a value stays.
 #[test]
 fn no_claim_is_below_the_truth_f32() {
-    no_claim_is_below_the_truth::<f32>(&[1e-2, 1e-4, 1e-6], 1);
+    no_claim_is_below_the_truth::<f32>(&[1e-2, 1e-4, 1e-6], 0);
+}
+
+/// Without a break point only a peak can be missed: kinks, jumps, cusps and powers are seen wherever they are.
+#[test]
+fn nothing_but_a_peak_needs_a_name() {
+    for case in cases().iter().filter(|case| !case.family.starts_with("gaussian")) {
+        let [from, to] = [case.points[0], case.points[case.points.len() - 1]];
+        for rule in Rule::ALL {
+            let settings = GaussKronrod::new().rule(rule).relative(1e-8).limit(20_000);
+            let estimate = settings.integrate(case.integrand::<f64>(), from, to).expect("good settings");
+            assert!(case.error(estimate.value) <= estimate.error, "{rule:?}, {case:?}, {estimate:?}");
+        }
+    }
+}
+
+/// Reversed ends: the negative, the same claim and the same evaluations.
+#[test]
+fn reversed_cases_are_negative() {
+    for case in cases().iter().filter(|case| case.points.len() == 2) {
+        let settings = GaussKronrod::new().relative(1e-8).limit(20_000);
+        let [forth, back] = [[0, 1], [1, 0]].map(|ends| {
+            let [from, to] = ends.map(|k: usize| case.points[k]);
+            settings.integrate(case.integrand::<f64>(), from, to).expect("good settings")
+        });
+        assert_eq!(back, Estimate { value: -forth.value, ..forth }, "{case:?}");
+    }
 }
 
 /// `√(ln 4)`.
@@ -114,7 +145,8 @@ proptest! {
         let size: f64 = coefficients.iter().map(|&c| 2.0 * half * f64::from(c).abs()).sum();
         let slack = 8.0 * f64::EPSILON * size;
         prop_assert!((estimate.value - exact).abs() <= estimate.error + slack, "{:?} for {}", estimate, exact);
-        prop_assert_eq!(estimate.status, Status::Converged);
+        let is_nothing = coefficients.iter().all(|&c| c == 0);
+        prop_assert_eq!(estimate.status, if is_nothing { Status::AllZero } else { Status::Converged });
     }
 
     /// Peaks of every width, with a break point at the top.

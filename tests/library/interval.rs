@@ -244,3 +244,62 @@ fn what_is_no_interval_is_refused_with_its_reason() {
     assert!(refused(f64::INFINITY, f64::INFINITY).starts_with("lower end is inf"));
     assert!(refused(f64::NEG_INFINITY, f64::NEG_INFINITY).starts_with("upper end is -inf"));
 }
+
+proptest! {
+    /// Powers and `x ln x` of an interval hold those of its numbers, and no negative even ones.
+    #[test]
+    fn powers_hold_those_of_the_numbers_within(
+        a in -3.0_f64..3.0, length in 0.0_f64..2.0, share in 0.0_f64..=1.0, n in -6_i32..7,
+    ) {
+        let x = between(a, a + length);
+        let within = (a + share * length).clamp(a, a + length);
+        // By points: products of intervals without width.
+        let at = point(within);
+        let product = (0..n.unsigned_abs()).fold(Interval::constant(1.0), |power, _| power * at);
+        let exact = if n < 0 { Interval::constant(1.0) / product } else { product };
+        let power = x.powi(n);
+        prop_assert!(power.lower() <= exact.upper() && exact.lower() <= power.upper(), "{:?}^{}", x, n);
+        prop_assert!(n % 2 != 0 || power.lower() >= 0.0);
+        prop_assert_eq!(x.square(), x.powi(2));
+        if within > 0.0 {
+            let (term, exact) = (x.x_ln_x(), at * at.ln());
+            prop_assert!(term.lower() <= exact.upper() && exact.lower() <= term.upper(), "{:?}", x);
+            prop_assert!(term.lower() >= -0.367_879_441_171_442_4);
+        }
+    }
+}
+
+#[test]
+fn powers_at_the_edges() {
+    let interval = |lower, upper| between::<f64>(lower, upper);
+    assert_eq!(interval(-1.0, 2.0).powi(0), point(1.0));
+    assert_eq!(interval(-2.0, 0.5).powi(3), interval(-8.0, 0.125));
+    assert_eq!(interval(0.0, 2.0).powi(-2), interval(0.25, f64::INFINITY));
+    assert_eq!(interval(-0.5, 2.0).powi(-2), interval(0.25, f64::INFINITY));
+    assert_eq!(interval(-0.5, 2.0).powi(-1), Interval::WHOLE);
+    assert_eq!(interval(-0.5, f64::INFINITY).square(), interval(0.0, f64::INFINITY));
+    assert!(Interval::<f64>::EMPTY.powi(0).is_empty() && interval(-2.0, -1.0).x_ln_x().is_empty());
+    assert_eq!(interval(-1.0, 0.0).x_ln_x(), point(0.0));
+    // Falling before 1/e, rising after, least about it.
+    let term = |lower, upper| interval(lower, upper).x_ln_x();
+    assert!(term(0.1, 0.2).upper() > -0.231 && term(0.1, 0.2).lower() > -0.322);
+    assert!(term(0.5, 2.0).lower() > -0.347 && term(0.5, 2.0).upper() > 1.386);
+    assert_eq!(term(0.25, 1.0), interval(-0.367_879_441_171_442_33, 0.0));
+}
+
+proptest! {
+    /// The bounds of [`Scalar::powi`] and [`Scalar::x_ln_x`] in `f32`, seen from `f64`, where they are far smaller.
+    #[test]
+    fn powers_of_floats_are_within_their_bounds(x in 0.3_f32..3.0, n in -60_i32..61) {
+        let wide = f64::from(x);
+        let ulp = |x: f64| f64::from((x as f32).abs().next_up() - (x as f32).abs());
+        for (x, wide) in [(x, wide), (-x, -wide)] {
+            let exact = Scalar::powi(wide, n);
+            let error = (f64::from(Scalar::powi(x, n)) - exact).abs();
+            prop_assert!(error <= (f64::from(n.abs()) + 1.0) * ulp(exact), "{x}^{n}: {error:e}");
+        }
+        prop_assert_eq!(Scalar::square(x), x * x);
+        let exact = wide.x_ln_x();
+        prop_assert!((f64::from(x.x_ln_x()) - exact).abs() <= 1.5 * ulp(exact) || x == 1.0, "{x}");
+    }
+}

@@ -1,6 +1,8 @@
 //! Rigorous integration: against integrals that are known in closed form, by their relations, and where it must give
 //! up.
 
+mod peaks;
+
 use mean_information::Real;
 use mean_information::estimate::{Enclosure, Status};
 use mean_information::interval::Interval;
@@ -24,6 +26,8 @@ macro_rules! integrand {
 fn number<S: Scalar>(x: f64) -> S {
     S::constant(x)
 }
+
+use integrand;
 
 integrand!(Cubic, x => x.clone() * x.clone() * x.clone() - number::<S>(2.0) * x + number(0.25));
 integrand!(Witch, x => number::<S>(1.0) / (number::<S>(1.0) + x.clone() * x));

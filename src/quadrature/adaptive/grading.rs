@@ -46,6 +46,7 @@ pub fn graded<T: Real>(from: T, towards: T, ratio: T, panels: usize) -> Result<V
     let mut power = T::one();
     for _ in 0..panels {
         let point = half + distance * power;
+        // Doubled back, and kept between the ends.
         points.push((point + point).max(low).min(high));
         power = power * ratio;
     }

@@ -3,6 +3,7 @@
 //! What the error claims and why is derived in [`book::quadrature`](crate::book::quadrature).
 
 mod compensated;
+mod doubts;
 mod grading;
 mod integration;
 mod panels;
@@ -32,8 +33,9 @@ use stretch::Stretch;
 ///
 /// **Error**: [`Estimate::error`] is an estimate, not a proof. It holds in every case of the battery (measured,
 /// [`guarantees`](crate::book::guarantees)). It takes the values of the integrand to be within 2 ulp of exact, at
-/// arguments within 2 ulp of those given. No method that only evaluates can know of a peak that none of its nodes
-/// meets, or of a jump that they straddle evenly: give break points where the integrand is known to change.
+/// arguments within 2 ulp of those given. Kinks and jumps are seen wherever they are, also beside the ends of panels
+/// (measured: 0 false claims of 20 000 places). No method that only evaluates can know of a peak that none of its nodes
+/// meets: give break points where the integrand is known to change.
 ///
 /// ```
 /// use mean_information::cell::entropy;
@@ -101,12 +103,13 @@ impl<T: Real> GaussKronrod<T> {
 
     /// Integrates `f` from `from` to `to`: the negative of the integral from `to` to `from`.
     ///
-    /// **Error**: as [`GaussKronrod`] says. **Status**: [`Converged`](Status::Converged) within the tolerance;
+    /// **Error**: as [`GaussKronrod`] says. **Status**: [`Converged`](Status::Converged) within the tolerance, or
+    /// [`AllZero`](Status::AllZero) if every value was 0;
     /// [`EvaluationLimit`](Status::EvaluationLimit) before that; [`RoundOff`](Status::RoundOff) where rounding is
     /// most of the claimed error and above the tolerance; [`Unresolved`](Status::Unresolved) where a panel that
-    /// floats are too coarse to halve is, an infinite error there meaning that halving did not help (a divergent
-    /// integral); [`NotFinite`](Status::NotFinite), with the value NaN and an infinite error, where the integrand or
-    /// its integral over a panel is.
+    /// floats are too coarse to halve is, or one of which a half met infinite values; an infinite error there means that
+    /// halving did not help (a divergent integral); [`NotFinite`](Status::NotFinite), with the value NaN and an infinite
+    /// error, where the integrand is NaN, or its integral over a panel between break points is not finite.
     ///
     /// Special case: 0, without an evaluation, if `from == to`.
     ///
@@ -118,7 +121,7 @@ impl<T: Real> GaussKronrod<T> {
     /// ```
     /// use mean_information::quadrature::adaptive::GaussKronrod;
     /// let quarter = GaussKronrod::<f32>::new().integrate(|x| x * x * x, 0.0, 3.0)?;
-    /// assert_eq!((quarter.value, quarter.evaluations), (20.25, 21));
+    /// assert_eq!((quarter.value, quarter.evaluations), (20.25, 23));
     /// # Ok::<(), mean_information::Error>(())
     /// ```
     pub fn integrate(&self, f: impl FnMut(T) -> T, from: T, to: T) -> Result<Estimate<T>, Error> {
@@ -147,7 +150,7 @@ impl<T: Real> GaussKronrod<T> {
     /// use mean_information::quadrature::adaptive::GaussKronrod;
     /// let step = |x: f64| if x < 0.3 { 0.0 } else { x };
     /// let integral = GaussKronrod::new().integrate_between(step, &[0.0, 0.3, 2.0])?;
-    /// assert_eq!((integral.value, integral.evaluations), (1.9549999999999998, 42));
+    /// assert_eq!((integral.value, integral.evaluations), (1.9549999999999998, 46));
     /// # Ok::<(), mean_information::Error>(())
     /// ```
     pub fn integrate_between(&self, f: impl FnMut(T) -> T, points: &[T]) -> Result<Estimate<T>, Error> {
@@ -169,7 +172,7 @@ impl<T: Real> GaussKronrod<T> {
             .map(|ends| Stretch { lower: ends[0], upper: ends[1] })
             .filter(|stretch| stretch.lower < stretch.upper);
         self.check(stretches.clone().count() as u64)?;
-        Ok(Integration::new(self, f).run(stretches, Stretch { lower, upper }))
+        Ok(Integration::new(self, f, Stretch { lower, upper }).run(stretches))
     }
 
     /// Refuses settings that cannot be met with the given number of first panels.

@@ -5,6 +5,8 @@
 //! panels that are, never a running one, so nothing drifts.
 
 use super::compensated::Compensated;
+use super::doubts::SIDES;
+use super::rule::Rule;
 use super::stretch::Stretch;
 use crate::real::Real;
 use alloc::vec::Vec;
@@ -20,10 +22,26 @@ pub(super) struct Panel<T> {
     pub(super) ratio: T,
     /// True if both halves of the panel above had a difference of about its size.
     pub(super) alike: bool,
-    /// The part of the claimed error that halving can reduce.
+    /// The ratio of the bands.
+    pub(super) decay: T,
+    /// What rounding has done to the value.
+    pub(super) noise: T,
+    /// The largest value less the smallest.
+    pub(super) spread: T,
+    /// The part of the claimed error that halving can reduce, doubts apart.
     pub(super) reducible: T,
     /// The part that it cannot.
     pub(super) fixed: T,
+    /// True if floats are too coarse to halve the panel, or a half has no value.
+    pub(super) is_settled: bool,
+    /// The polynomial through the values, at either end.
+    pub(super) ends: [T; 2],
+    /// An argument next to either end and the value there, where it was asked for.
+    pub(super) witnesses: [Option<(T, T)>; 2],
+    /// The error that the gap at either end may hide.
+    pub(super) doubts: [T; 2],
+    /// The places of the panels beside this one.
+    pub(super) beside: [Option<usize>; 2],
 }
 
 /// The sums over panels.
@@ -33,7 +51,7 @@ pub(super) struct Totals<T> {
     pub(super) reducible: T,
     pub(super) fixed: T,
     /// The place of the panel with the largest reducible part.
-    worst: usize,
+    pub(super) worst: usize,
     most: T,
 }
 
@@ -68,11 +86,43 @@ impl<T: Real> Panels<T> {
         Self { places: Vec::new() }
     }
 
-    /// Adds a panel at the next free place.
-    pub(super) fn push(&mut self, panel: Panel<T>) {
+    /// Adds a panel at the next free place, to the right of the one at another.
+    pub(super) fn push(&mut self, panel: Panel<T>, after: Option<usize>) -> usize {
         let place = self.places.len();
+        // The panel after that one gets a new neighbour, too.
+        let next = after.and_then(|after| self.places[after].0.beside[1].replace(place));
+        if let Some(next) = next {
+            self.places[next].0.beside[0] = Some(place);
+        }
+        let panel = Panel { beside: [after, next], ..panel };
         self.places.push((panel, alone(place, &panel)));
         self.renew(place);
+        place
+    }
+
+    /// Returns the panel at a place.
+    pub(super) fn at(&self, place: usize) -> &Panel<T> {
+        &self.places[place].0
+    }
+
+    /// Puts another panel at a place, between the same ones.
+    pub(super) fn replace(&mut self, place: usize, panel: Panel<T>) {
+        let beside = self.places[place].0.beside;
+        self.places[place].0 = Panel { beside, ..panel };
+        self.renew(place);
+    }
+
+    /// Doubts anew a panel and those beside it.
+    pub(super) fn doubt(&mut self, place: usize, whole: Stretch<T>, rule: Rule) {
+        let [before, after] = self.places[place].0.beside;
+        // An end belongs to two panels: either's polynomial is compared with the other's.
+        for place in [before, Some(place), after].into_iter().flatten() {
+            let panel = self.places[place].0;
+            let beside = panel.beside.map(|other| other.map(|other| &self.places[other].0));
+            let doubts = SIDES.map(|side| panel.doubt(side, beside[side], whole, rule));
+            self.places[place].0.doubts = doubts;
+            self.renew(place);
+        }
     }
 
     /// Returns the totals of all panels; none if there is no panel.
@@ -80,22 +130,12 @@ impl<T: Real> Panels<T> {
         self.places.first().map(|(_, totals)| *totals)
     }
 
-    /// Returns the panel with the largest reducible part.
-    pub(super) fn worst(&self, totals: &Totals<T>) -> Panel<T> {
-        self.places[totals.worst].0
-    }
-
-    /// Puts another panel in the place of the worst.
-    pub(super) fn replace_worst(&mut self, totals: &Totals<T>, panel: Panel<T>) {
-        self.places[totals.worst].0 = panel;
-        self.renew(totals.worst);
-    }
-
     /// Renews the totals of a place and of those above it.
     fn renew(&mut self, mut place: usize) {
         loop {
             // Always a sum over panels, never a corrected one: large early claims leave no trace ("Halving the worst").
             let mut totals = alone(place, &self.places[place].0);
+            // As in a heap: the places below are at twice this one.
             for below in [2 * place + 1, 2 * place + 2] {
                 if let Some((_, other)) = self.places.get(below) {
                     totals = totals.merged(*other);
@@ -105,6 +145,7 @@ impl<T: Real> Panels<T> {
             if place == 0 {
                 return;
             }
+            // Only the way to the root has changed.
             place = (place - 1) / 2;
         }
     }
@@ -112,11 +153,6 @@ impl<T: Real> Panels<T> {
 
 /// Returns the totals of one panel.
 fn alone<T: Real>(place: usize, panel: &Panel<T>) -> Totals<T> {
-    Totals {
-        value: Compensated::new(panel.value),
-        reducible: panel.reducible,
-        fixed: panel.fixed,
-        worst: place,
-        most: panel.reducible,
-    }
+    let [reducible, fixed] = panel.claim();
+    Totals { value: Compensated::new(panel.value), reducible, fixed, worst: place, most: reducible }
 }

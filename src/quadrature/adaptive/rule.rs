@@ -43,6 +43,7 @@ struct Table {
     kronrod: &'static [f64],
     gauss: &'static [f64],
     bands: &'static [[f64; 8]],
+    ends: &'static [[f64; 2]],
 }
 
 /// The findings of one application of a rule to a stretch.
@@ -56,6 +57,12 @@ pub(super) struct Reading<T> {
     pub(super) decay: T,
     /// A bound on what rounding has done to `value`.
     pub(super) noise: T,
+    /// The largest value less the smallest.
+    pub(super) spread: T,
+    /// True if every value is 0.
+    pub(super) is_zero: bool,
+    /// The polynomial through all values, carried on to the lower and the upper end.
+    pub(super) ends: [T; 2],
 }
 
 impl Rule {
@@ -94,6 +101,7 @@ impl Rule {
                     kronrod: &tables::$kronrod,
                     gauss: &tables::$gauss,
                     bands: const { &bands(&tables::$nodes) },
+                    ends: const { &ends(&tables::$nodes) },
                 }
             };
         }
@@ -112,6 +120,11 @@ impl Rule {
         T::nearest(self.table().nodes[0])
     }
 
+    /// Returns the part of a stretch between its end and the outermost node.
+    pub(super) fn gap<T: Real>(self) -> T {
+        T::nearest((1.0 - self.table().nodes[0]) / 2.0)
+    }
+
     /// Applies the rule to a stretch; evaluates in ascending order.
     pub(super) fn apply<T: Real>(self, f: &mut impl FnMut(T) -> T, stretch: Stretch<T>) -> Reading<T> {
         let table = self.table();
@@ -121,6 +134,7 @@ impl Rule {
         for (i, &node) in table.nodes.iter().enumerate() {
             [values[i], values[last - i]] = stretch.pair(T::nearest(node));
         }
+        // Arguments become values in place, from the lowest upwards.
         for value in values.iter_mut() {
             *value = f(*value);
         }
@@ -136,25 +150,35 @@ impl Table {
         let half = |weight: f64| T::nearest(weight) * T::HALF;
         let (mut by_all, mut by_gauss) = (Compensated::default(), Compensated::default());
         let (mut size, mut series) = (T::zero(), [T::zero(); 8]);
+        let mut ends = [T::zero(); 2];
         for (i, (&weight, band)) in self.kronrod.iter().zip(self.bands).enumerate() {
             // The middle node counts once.
             let before = if i == last - i { T::zero() } else { values[i] };
+            // The value at the mirrored node.
             let after = values[last - i];
             let [low, high] = [before, after].map(|value| half(weight) * value);
+            // Q_K, with what its additions lose ("Halving the worst").
             by_all = by_all.plus(low).plus(high);
             // The mean of |g|, for the noise: 5 epsilon of it ("Rounding").
             size = size + (low.abs() + high.abs());
+            // Q_G: every second node is one of Gauss.
             if i % 2 == 1 {
                 let weight = half(self.gauss[i / 2]);
                 by_gauss = by_gauss.plus(weight * before).plus(weight * after);
             }
             // P_k is even or odd with k: one product serves both sides.
+            // Lagrange's weights at either end ("What the ends hide").
+            let [near, far] = self.ends[i].map(T::nearest);
+            ends[0] = ends[0] + (near * before + far * after);
+            ends[1] = ends[1] + (near * after + far * before);
             let by_parity = [high + low, high - low];
+            // a_k = Σ w_i √(2k + 1) P_k(x_i) g(x_i) / 2, weights and halves being in the products already.
             for (k, coefficient) in series.iter_mut().enumerate() {
                 *coefficient = *coefficient + T::nearest(band[k]) * by_parity[k % 2];
             }
         }
 
+        // β1 and β2: four coefficients each, so that neither parity is missed.
         let [lower, upper] = [&series[..4], &series[4..]]
             .map(|band| band.iter().fold(T::zero(), |sum, coefficient| sum + coefficient.abs()));
         // β2 / β1 ("Agreement by accident"); 1 where nothing falls.
@@ -166,11 +190,21 @@ impl Table {
         // ê: the two rules apart, or what the bands expect at degree 2n, whichever is larger.
         let apart = (by_all.value() - by_gauss.value()).abs();
         let difference = if upper.is_finite() { apart.max(upper * decay) } else { T::infinity() };
+        // Of an infinite value the sum is NaN, too.
+        let value = match stretch.widths(by_all.value()) {
+            value if value.is_finite() => value,
+            _ if values.iter().any(|value| value.is_nan()) => T::nan(),
+            _ => T::infinity(),
+        };
         Reading {
-            value: stretch.widths(by_all.value()),
+            value,
             difference: stretch.widths(difference),
             decay,
             noise: noise(values, size, stretch),
+            spread: values.iter().fold(values[0], |most, &value| most.max(value))
+                - values.iter().fold(values[0], |least, &value| least.min(value)),
+            is_zero: values.iter().all(T::is_zero),
+            ends,
         }
     }
 }
@@ -193,6 +227,7 @@ fn noise<T: Real>(values: &[T], size: T, stretch: Stretch<T>) -> T {
     } else {
         T::from_parts(4 * MOST as u64, T::MIN_EXPONENT)
     };
+    // 10 u ∫ |g| + 8 u X Σ |g(x_(i+1)) - g(x_i)|, with 2u = epsilon ("Rounding").
     stretch.widths(five * epsilon * size + floor) + four * variation * stretch.magnitude() + floor
 }
 
@@ -216,6 +251,40 @@ const fn bands<const N: usize>(nodes: &[f64; N]) -> [[f64; 8]; N] {
             let next = ((2 * k + 1) as f64 * nodes[i] * current - k as f64 * previous) / (k + 1) as f64;
             (previous, current, k) = (current, next, k + 1);
         }
+        i += 1;
+    }
+    result
+}
+
+/// Returns the weights that carry the polynomial through all values on to the end at 1: of the nodes `x` and `-x`, the
+/// Lagrange polynomials `∏ (1 - x_j) / (x - x_j)` over the other nodes.
+const fn ends<const N: usize>(nodes: &[f64; N]) -> [[f64; 2]; N] {
+    let mut result = [[0.0; 2]; N];
+    let mut i = 0;
+    while i < N {
+        let x = nodes[i];
+        let (mut near, mut far, mut j) = (1.0, 1.0, 0);
+        while j < N {
+            let y = nodes[j];
+            // The nodes of the same sign.
+            if j != i {
+                near *= (1.0 - y) / (x - y);
+                far *= (1.0 - y) / (-x - y);
+            }
+            // The mirrored node, but for the middle one, which is its own.
+            if j + 1 < N {
+                if j == i {
+                    // Of a node the other one is its mirror image.
+                    near *= (1.0 + y) / (x + y);
+                    far *= (1.0 - y) / (-x - y);
+                } else {
+                    near *= (1.0 + y) / (x + y);
+                    far *= (1.0 + y) / (-x + y);
+                }
+            }
+            j += 1;
+        }
+        result[i] = [near, far];
         i += 1;
     }
     result

@@ -12,6 +12,7 @@ pub(super) struct Stretch<T> {
 impl<T: Real> Stretch<T> {
     /// Returns the middle, also where the sum of the ends is no float.
     pub(super) fn midpoint(self) -> T {
+        // Halves first where the sum overflows.
         let sum = self.lower + self.upper;
         if sum.is_finite() { sum * T::HALF } else { self.lower * T::HALF + self.upper * T::HALF }
     }
@@ -25,13 +26,18 @@ impl<T: Real> Stretch<T> {
     /// Returns the images of the nodes `-node` and `node` of `[-1, 1]`.
     pub(super) fn pair(self, node: T) -> [T; 2] {
         let (middle, offset) = (self.midpoint(), self.widths(node * T::HALF));
+        // Rounding must not carry a node over an end.
         [(middle - offset).max(self.lower), (middle + offset).min(self.upper)]
+    }
+
+    /// Cuts the stretch at an argument.
+    pub(super) fn cut_at(self, x: T) -> [Self; 2] {
+        [Self { upper: x, ..self }, Self { lower: x, ..self }]
     }
 
     /// Cuts the stretch in the middle.
     pub(super) fn halves(self) -> [Self; 2] {
-        let middle = self.midpoint();
-        [Self { upper: middle, ..self }, Self { lower: middle, ..self }]
+        self.cut_at(self.midpoint())
     }
 
     /// Returns true if floats are dense enough for the outermost nodes to stay off the ends, by some 8 spacings: with

@@ -144,6 +144,23 @@ fn the_bands_are_coefficients_of_the_legendre_series() {
     }
 }
 
+/// A polynomial that all values determine is carried on to both ends: orthonormal ones are `±√(2k + 1)` there.
+#[test]
+fn the_polynomial_goes_on_to_the_ends() {
+    for rule in Rule::ALL {
+        for k in 0..rule.evaluations() as u32 {
+            let reading = rule.apply(&mut |x| legendre(k, x / 3.0), STRETCH);
+            let end = f64::from(2 * k + 1).sqrt();
+            let lower = if k % 2 == 0 { end } else { -end };
+            // Roundings of values up to √(2k + 1), by weights whose magnitudes add to less than 16.
+            let rounding = 16.0 * f64::from(3 * k * (2 * k + 1) + 8) * f64::EPSILON;
+            for (found, exact) in reading.ends.iter().zip([lower, end]) {
+                assert!((found - exact).abs() <= rounding, "{rule:?}, degree {k}: {found} for {exact}");
+            }
+        }
+    }
+}
+
 /// The rules of Gauss and Kronrod disagree on `P_{2n}`, which no band sees.
 #[test]
 fn the_difference_of_the_two_rules_counts() {
@@ -224,8 +241,16 @@ fn what_no_halving_reduces_is_noise() {
         difference,
         ratio: 0.5,
         alike,
+        decay: 0.25,
+        noise: 0.125,
+        spread: 1.5,
         reducible: 3.0,
         fixed: 0.125,
+        is_settled: false,
+        ends: [0.5, 2.5],
+        witnesses: [None; 2],
+        doubts: [0.0; 2],
+        beside: [None; 2],
     };
     let noise = 1.0 / f64::from(1 << 20);
     // The difference of the halves, that of the whole being 1; was it alike; the noise; alike now, and settled.

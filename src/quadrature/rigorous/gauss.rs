@@ -18,6 +18,7 @@ pub(super) const RECTANGLES: [(f64, f64, f64); 5] =
 
 /// Returns the nodes and weights of one of the rules, as floats.
 pub(super) fn floats() -> impl Iterator<Item = (f64, f64)> {
+    // Scale 127: the upper 64 bits, over 2^63.
     let float = |value: u128| (value >> 64) as f64 / (1_u64 << 63) as f64;
     RULES[6].iter().map(move |&(node, weight)| (float(node), float(weight)))
 }
@@ -66,15 +67,18 @@ impl Chooser {
                 let rectangle = Complex::new(end(from).hull(end(to)), Interval::between(0.0, height.upper()));
                 largest = largest.max(f.evaluate(rectangle).bound());
                 *evaluations += 1;
+                // Not analytic, or without bound: larger ellipses are not, either.
                 if largest.is_infinite() {
                     break;
                 }
             }
             largest
         };
+        // The outer rectangles of the smallest ellipse tell first.
         if self.none && largest(ELLIPSES[ELLIPSES.len() - 1], &RECTANGLES[..2]).is_infinite() {
             return None;
         }
+        // From one larger than the last that fitted: panels on the way out of a singular point grow.
         for (index, &ellipse) in ELLIPSES.iter().enumerate().skip(self.last.saturating_sub(1)) {
             let bound = largest(ellipse, &RECTANGLES);
             if bound.is_finite()
@@ -128,10 +132,12 @@ pub(super) fn integrate(
     for &(node, weight) in choice.rule {
         // Scale 127: node and weight lie in a unit above the table's integers.
         let offset = radius * floored(node);
+        // Nodes come in pairs of one weight.
         let pair = f.evaluate(centre + offset) + f.evaluate(centre - offset);
         sum = sum + floored(weight) * pair;
     }
     let remainder = Value::constant(choice.remainder);
+    // Two for each positive node.
     *evaluations += 2 * choice.rule.len() as u64;
     // The error term: ± the remainder.
     radius * sum + (-remainder).hull(remainder)

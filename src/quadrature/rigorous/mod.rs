@@ -10,6 +10,9 @@
 mod gauss;
 mod nodes;
 mod search;
+mod survey;
+
+use alloc::vec::Vec;
 
 use crate::error::Error;
 use crate::estimate::{Enclosure, Status};
@@ -148,6 +151,7 @@ impl<T: Real> Rigorous<T> {
         let integral = self.between_floats(f, from.widen(), to.widen());
         let (lower, upper) = (integral.value.lower(), integral.value.upper());
         Ok(Enclosure {
+            // Outward: at most an ulp at each end.
             lower: lower.to_real(Toward::Down),
             upper: upper.to_real(Toward::Up),
             status: integral.status.nearest(),
@@ -158,6 +162,7 @@ impl<T: Real> Rigorous<T> {
     /// Encloses the integral between two ends that need not be floats, by settings that were checked: between the
     /// floats below them, and two slivers of the first degree.
     pub(crate) fn between(&self, f: &impl Integrand, from: Interval<Wide>, to: Interval<Wide>) -> Integral {
+        // ∫ from..to = ∫ near..far + sliver at `to` - sliver at `from`.
         let (near, sliver_from) = split(f, from);
         let (far, sliver_to) = split(f, to);
         let integral = self.between_floats(f, near, far);
@@ -187,6 +192,13 @@ impl<T: Real> Rigorous<T> {
     }
 }
 
+/// Returns break points between two floats that crowd where ranges leave most of `∫ |f|` open, as about a peak, and the
+/// number of evaluations.
+pub(crate) fn break_points(f: &impl Integrand, from: f64, to: f64, limit: u64) -> (Vec<f64>, u64) {
+    let mut search = Search { f, from, to, evaluations: 0, limit };
+    (survey::break_points(&mut search), search.evaluations)
+}
+
 /// Returns the float below `x`, and the integral from there to `x`.
 fn split(f: &impl Integrand, x: Interval<Wide>) -> (f64, Interval<Wide>) {
     let near = x.lower().to_real::<f64>(Toward::Down);
@@ -195,6 +207,7 @@ fn split(f: &impl Integrand, x: Interval<Wide>) -> (f64, Interval<Wide>) {
         // No sliver; and the integrand need not be defined at a single point.
         return (near, Interval::constant(0.0));
     }
+    // First degree: the length times the range, theorem (enclosure).
     (near, (x - start) * f.evaluate(start.hull(x)))
 }
 

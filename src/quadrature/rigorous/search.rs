@@ -5,6 +5,7 @@ use alloc::vec;
 
 use super::Integral;
 use super::gauss::{self, Chooser};
+use super::survey;
 use crate::estimate::Status;
 use crate::interval::{Endpoint, Interval, Toward, Wide};
 use crate::quadrature::Tolerance;
@@ -44,18 +45,16 @@ const MOST_EVALUATIONS: u64 = 72;
 /// A panel may take this share of the width that is left.
 const SHARE: f64 = 1.0 / 32.0;
 /// A panel narrower than this share of the whole is not cut any more.
-const NARROWEST: f64 = 1.0 / (1_u128 << 120) as f64;
+pub(super) const NARROWEST: f64 = 1.0 / (1_u128 << 120) as f64;
 /// The finest width of sums in 128 bits relative to the integral of the magnitude, above their roundings: lemma (128
 /// bits).
 const ROUND_OFF: f64 = 1.0 / (1_u128 << 66) as f64;
-/// An estimate this much below the crudest bound is not trusted.
-const DOUBT: f64 = 1.0 / (1_u64 << 20) as f64;
-
 impl<F: Integrand> Search<'_, F> {
     /// Encloses the integral, within the tolerance if that can be.
     pub(super) fn run(&mut self, tolerance: Tolerance<f64>) -> Integral {
         let wanted = |magnitude: f64| tolerance.of(magnitude);
-        let mut target = wanted(self.estimate()).min(f64::MAX) / 4.0;
+        // A quarter: rounding to the result's format, and the shares of later panels, take the rest.
+        let mut target = wanted(self.estimate(tolerance)).min(f64::MAX) / 4.0;
         let mut value = Interval::WHOLE;
         loop {
             // Half of the evaluations that are left: if they are too few, there are some for a laxer tolerance.
@@ -71,6 +70,7 @@ impl<F: Integrand> Search<'_, F> {
             };
             // Too wide, though every panel is as narrow as was asked for: ask for more, if there is more.
             let finer = wanted.max(ROUND_OFF * sum.size) / 4.0;
+            // Any target is sound: it decides the work only ("Panels").
             target = match status {
                 Status::RoundOff if finer < target / 2.0 => finer,
                 Status::EvaluationLimit if self.evaluations + MOST_EVALUATIONS < self.limit => target * LAXER,
@@ -80,19 +80,18 @@ impl<F: Integrand> Search<'_, F> {
     }
 
     /// Estimates the magnitude of the integral: a tolerance to begin with.
-    pub(super) fn estimate(&mut self) -> f64 {
+    pub(super) fn estimate(&mut self, tolerance: Tolerance<f64>) -> f64 {
         let (centre, radius) = (0.5 * self.from + 0.5 * self.to, 0.5 * self.to - 0.5 * self.from);
         let mut sum = 0.0;
         for (node, weight) in gauss::floats() {
             for x in [centre - radius * node, centre + radius * node] {
                 let value: f64 = self.f.evaluate(x);
+                // A node may hit a singular point: an estimate does without.
                 sum += if value.is_finite() { weight * value } else { 0.0 };
                 self.evaluations += 1;
             }
         }
-        let range: Interval<f64> = self.range(self.from, self.to);
-        let crude = if range.is_bounded() { 2.0 * range.magnitude() } else { 0.0 };
-        radius * sum.abs().max(crude * DOUBT)
+        survey::magnitude(self, radius * sum.abs(), tolerance)
     }
 
     /// Adds up the panels, with a width of about `target`, from evaluations up to a limit.
@@ -102,11 +101,14 @@ impl<F: Integrand> Search<'_, F> {
         let mut chooser = Chooser::new();
         let mut panels = vec![(self.from, self.to)];
         while let Some((a, b)) = panels.pop() {
+            // One evaluation is kept for each panel that waits: all of them are enclosed.
             let limited = self.evaluations + panels.len() as u64 + MOST_EVALUATIONS > limit;
             match self.panel(&mut chooser, a, b, left * SHARE, limited) {
                 Panel::Enclosed { value, status } => {
+                    // What a panel does not use is left to those after it.
                     left -= width(value).min(left * SHARE);
                     sum.value = sum.value + value;
+                    // Roundings are relative to this, also where the sum cancels: lemma (128 bits).
                     sum.size += value.magnitude().to_real::<f64>(Toward::Up);
                     if status != Status::Converged {
                         sum.status = status;
@@ -148,11 +150,13 @@ impl<F: Integrand> Search<'_, F> {
         }
         // In floats it is noise: once more in 128 bits.
         let range: Interval<Wide> = self.range(a, b);
+        // Both contain the integral.
         let strip = strip.intersection(length * range);
         if can_be_cut && width(strip) > allowed && !self.is_noise(range, middle) {
             return Panel::Cut(middle);
         }
         let unresolved = Status::Unresolved { lower: a, upper: b };
+        // An integrand without bound cannot be enclosed by ranges.
         if !strip.is_bounded() {
             return Panel::Failed(unresolved);
         }
@@ -160,7 +164,7 @@ impl<F: Integrand> Search<'_, F> {
     }
 
     /// Encloses the values of the integrand between `a` and `b`.
-    fn range<T: Endpoint>(&mut self, a: f64, b: f64) -> Interval<T> {
+    pub(super) fn range<T: Endpoint>(&mut self, a: f64, b: f64) -> Interval<T> {
         self.evaluations += 1;
         self.f.evaluate(Interval::constant(a).hull(Interval::constant(b)))
     }

@@ -1,4 +1,5 @@
-//! The battery: 247 integrals of the public test families, with their values to 32 digits (`generate.py`).
+//! The battery: 330 integrals with their values to 32 digits: 247 of the public test families (`generate.py`), and 83
+//! that users reported as wrong, with their kin (`reported.py`).
 
 use mean_information::cell::{entropy, information};
 use mean_information::sensor::{GaussianSensor, InverseSensorModel};
@@ -26,8 +27,9 @@ pub fn cases() -> Vec<Case> {
     let number = |text: &str| text.parse::<f64>().expect("a number");
     let list =
         |text: &'static str| text.split(',').filter(|text| *text != "-").map(number).collect::<Vec<_>>();
-    include_str!("cases.txt")
-        .lines()
+    [include_str!("cases.txt"), include_str!("reported.txt")]
+        .into_iter()
+        .flat_map(str::lines)
         .map(|line| {
             let fields: Vec<&'static str> = line.split(' ').collect();
             let [family, parameters, ends, breaks, high, low] = fields[..] else {
@@ -95,6 +97,20 @@ impl Case {
                 Box::new(move |x| Float::exp(-square((x - c[1]) / c[0])) + quarter * x)
             }
             "runge-scaled" => Box::new(move |x| one / (one + square(x / c[0]))),
+            "gaussian" => Box::new(move |x| c[2] * Float::exp(-T::HALF * square((x - c[1]) / c[0]))),
+            "kink" => Box::new(move |x| Float::exp(Float::abs(x - c[0]))),
+            "jump" => Box::new(move |x| if x < c[0] { c[1] } else { c[2] }),
+            "ramp" => Box::new(move |x| Float::min(x, c[0])),
+            "cut-root" => Box::new(move |x| if x < c[0] { x / Float::sqrt(c[0] - x + c[1]) } else { zero }),
+            "identity" => Box::new(|x| x),
+            "end-power" => Box::new(move |x| Float::powf(x - c[1], c[0])),
+            "gsl-11" => Box::new(move |x| Float::powf(-Float::ln(x), c[0] - one)),
+            "gsl-454" => Box::new(move |x| {
+                let square = square(x);
+                square * x * Float::ln(Float::abs((square - one) * (square - two)))
+            }),
+            "boost-logarithms" => Box::new(move |x| Float::ln(x) * Float::ln_1p(-x)),
+            "occupied" => Box::new(move |x| Float::exp(-T::HALF * x * x) / (one + Float::exp(x - c[0]))),
             "room-t" => Box::new(|t| entropy(elementary::exp(-T::HALF * t * t))),
             "room-rho" => {
                 let sensor = GaussianSensor::new(c[0], c[1]).expect("a sensor");

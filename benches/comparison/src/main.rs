@@ -2,6 +2,9 @@
 //!
 //!     cargo run --release --manifest-path benches/comparison/Cargo.toml            the summary, as in RESULTS.md
 //!     cargo run --release --manifest-path benches/comparison/Cargo.toml -- all     every case as well
+//!
+//! GSL, Boost and SciPy's QUADPACK run where the machine has them (Debian: `libgsl-dev`, `libboost-math-dev`; `PYTHON`
+//! names an interpreter with SciPy).
 
 use mean_information_test_support::battery::{self, Case};
 use mean_information::Real;
@@ -10,6 +13,7 @@ use mean_information::quadrature::adaptive::{GaussKronrod, Rule};
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+mod peers;
 
 /// The most evaluations, for those that take a limit.
 const LIMIT: usize = 200_000;
@@ -109,6 +113,12 @@ fn methods() -> Vec<Method> {
     add("gkquad 0.0.4", gkquad);
     add("quad-rs 0.5.0", quad_rs);
     methods.push(Method { name: "quadrature 0.1.2".to_owned(), integrate: Box::new(quadrature) });
+    for (name, peer) in peers::all() {
+        methods.push(Method {
+            name: name.to_owned(),
+            integrate: Box::new(move |_, f, points, tolerance| peer.integrate(f, points, tolerance).ok()),
+        });
+    }
     methods
 }
 

@@ -8,7 +8,7 @@
 //! by the polynomial of the panel beside, or by one value next to the end, the *witness*. Derived in the chapter
 //! [`quadrature`](crate::book::quadrature), "What the ends hide".
 
-use super::panels::Panel;
+use super::panel::Panel;
 use super::rule::Rule;
 use super::stretch::Stretch;
 use crate::real::Real;
@@ -16,9 +16,6 @@ use crate::real::Real;
 /// A panel whose bands fall by this factor or more is smooth as far as its nodes can see: of others the own claim is
 /// much larger than what a gap can hide.
 const SMOOTH: u64 = 8;
-
-/// The lower and the upper end of a panel.
-pub(super) const SIDES: [usize; 2] = [0, 1];
 
 impl<T: Real> Stretch<T> {
     /// Returns the argument next to an end; the other end, if that is nearer.

@@ -1,9 +1,9 @@
 //! One integration: halve the panel with the largest claim until the claims are within the tolerance.
 
-use super::GaussKronrod;
-use super::doubts::SIDES;
-use super::panels::{Panel, Panels, Totals};
+use super::panel::{Panel, SIDES};
+use super::panels::{Panels, Totals};
 use super::rule::Reading;
+use super::settings::GaussKronrod;
 use super::stretch::Stretch;
 use crate::estimate::{Estimate, Status};
 use crate::real::Real;

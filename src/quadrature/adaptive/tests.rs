@@ -2,7 +2,7 @@
 
 use super::compensated::Compensated;
 use super::integration::compared;
-use super::panels::Panel;
+use super::panel::Panel;
 use super::rule::Rule;
 use super::stretch::Stretch;
 use crate::real::Real;

@@ -3,22 +3,13 @@
 
 use alloc::vec;
 
-use super::Integral;
 use super::gauss::{self, Chooser};
+use super::state::{Integral, NARROWEST, Search};
 use super::survey;
 use crate::estimate::Status;
 use crate::interval::{Endpoint, Interval, Toward, Wide};
 use crate::quadrature::Tolerance;
 use crate::scalar::{Integrand, Scalar};
-
-/// The state of a rigorous integration.
-pub(super) struct Search<'a, F> {
-    pub(super) f: &'a F,
-    pub(super) from: f64,
-    pub(super) to: f64,
-    pub(super) evaluations: u64,
-    pub(super) limit: u64,
-}
 
 /// The sum over panels.
 struct Sum {
@@ -44,8 +35,6 @@ const LAXER: f64 = 4096.0;
 const MOST_EVALUATIONS: u64 = 72;
 /// A panel may take this share of the width that is left.
 const SHARE: f64 = 1.0 / 32.0;
-/// A panel narrower than this share of the whole is not cut any more.
-pub(super) const NARROWEST: f64 = 1.0 / (1_u128 << 120) as f64;
 /// The finest width of sums in 128 bits relative to the integral of the magnitude, above their roundings: lemma (128
 /// bits).
 const ROUND_OFF: f64 = 1.0 / (1_u128 << 66) as f64;

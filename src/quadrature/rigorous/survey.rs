@@ -11,7 +11,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::search::{NARROWEST, Search};
+use super::state::{NARROWEST, Search};
 use crate::interval::Interval;
 use crate::quadrature::Tolerance;
 use crate::scalar::Integrand;

@@ -1,7 +1,13 @@
 //! The rules, exactly; and the remainder, where it is known.
 
+use super::gauss;
 use super::nodes::RULES;
-use super::*;
+use super::settings::Rigorous;
+use super::state::Search;
+use crate::estimate::Status;
+use crate::interval::{Interval, Toward, Wide};
+use crate::quadrature::Tolerance;
+use crate::scalar::{Integrand, Scalar};
 use num_bigint::BigInt;
 
 /// `P_n(x 2^-127) 2^(127 n) n!`, by the recurrence `k P_k = (2k - 1) x P_(k-1) - (k - 1) P_(k-2)`.

@@ -7,6 +7,7 @@
 
 mod cells;
 mod circles;
+mod evidence;
 mod integrals;
 mod kernels;
 mod rooms;
@@ -25,12 +26,19 @@ const STEPS: usize = 100;
 const LONG: [usize; 2] = [4000, 1000];
 
 fn all() -> impl Iterator<Item = &'static Inequality> {
-    [cells::ALL, circles::ALL, integrals::ALL, kernels::ALL, rooms::ALL].into_iter().flatten()
+    [cells::ALL, circles::ALL, evidence::ALL, integrals::ALL, kernels::ALL, rooms::ALL].into_iter().flatten()
 }
 
 /// The statements that no search at points can try, and why.
-const ELSEWHERE: [(&str, &str, &str); 12] = [
+const ELSEWHERE: [(&str, &str, &str); 15] = [
     ("cell", "Theorem (no ties)", "no inequality"),
+    ("evidence", "Theorem (removal)", "an equality, bit for bit: tests/library/scan/removal.rs"),
+    (
+        "evidence",
+        "Proposition (rounding of the agreement)",
+        "below what floats show; the correct rounding is asserted in the chapter",
+    ),
+    ("evidence", "Proposition (rounding of the jackknife)", "in integers: tests/library/scan/jackknife.rs"),
     ("limit", "Theorem (limits)", "a limit; how near, the theorem on grids says"),
     ("limit", "Proposition (many scans)", "an order of magnitude; the next term is asserted in the chapter"),
     ("sums", "Theorem (exact sums)", "an equality, bit for bit: tests/library/tally.rs"),

@@ -19,6 +19,9 @@
 //! | 360, 361 | -90° | 0.5° |
 //! | 400, 401 | -50° | 0.25° |
 //!
+//! A greatest range from 81.83 to 82 m, in a message or a parameter, means 81.83 m: SICK's scanners send 81.83 m and more as
+//! codes for errors and for no return.
+//!
 //! Further parameters: `robot_front_laser_max` is the greatest range (metres), `robot_frontlaser_offset`,
 //! `robot_frontlaser_side_offset` and `robot_frontlaser_angular_offset` are the mount of the laser (metres, radians). A log
 //! of `ROBOTLASER1` without them has the mount that lies between the poses of laser and robot, if it is the same in all.

@@ -8,7 +8,8 @@
 //! | `PARAM name value` | see below; without the three fields of time at will |
 //! | `RLASER`, `ROBOTLASER2`, `RAWLASER…`, `SYNC`, `TRUEPOS`, `#` and an empty line | nothing: passed over |
 //!
-//! Lines of any other first word are passed over and counted in [`Warning::LinesNotUnderstood`].
+//! Lines of any other first word are passed over and counted in
+//! [`LinesNotUnderstood`](crate::Warning::LinesNotUnderstood).
 //!
 //! The beams of an `FLASER` are at equal angles about the heading. `PARAM laser_front_laser_resolution` has their distance
 //! in degrees, and `laser_front_laser_fov`, if it is there, must fit. Without it the number of beams decides, as in CARMEN:

@@ -1,5 +1,4 @@
-//! Occupancy maps, range scans and trajectories as the field stores them, read for [`mean_information`] and written from
-//! it.
+//! Occupancy maps, range scans and trajectories as the field stores them, read for [`mean_information`] and written.
 //!
 //! A ROS map of 2 x 2 cells: occupied, unknown, free, and grey 64, which nav2 reads as 75 percent. The information of its
 //! three observed cells is 1, 1 and 0.1887 bits.
@@ -25,8 +24,9 @@
 //! # Ok::<(), mean_information_files::Error>(())
 //! ```
 //!
-//! [`read_scans`] reads a log of range scans, [`read_trajectory`] a trajectory. [`read_map`] takes a path on a disk, [`read_map_from`] any [`Source`] of files. [`read_map_contents`] counts the cells
-//! of an image and keeps none, for who only measures them. Nothing here measures, prints, or knows of a command line.
+//! [`read_map`] takes a path on a disk, [`read_map_from`] any [`Source`] of files. [`read_map_contents`] counts the cells
+//! of an image and keeps none, for who only measures them. [`read_scans`] reads a log of range scans, [`read_trajectory`]
+//! the poses at which they may be inserted into a map. Nothing here measures, prints, or knows of a command line.
 //!
 //! A module depends only on those above it:
 //!
@@ -48,7 +48,8 @@
 //! | [`scans`] | [`ScanLog`](scans::ScanLog): logs of range scans, CARMEN's |
 //! | `read` | files by the ending of their names |
 //!
-//! The feature `clap` makes [`Semantics`], [`Mode`] and [`ArrayEncoding`] values of a command line's options.
+//! The feature `clap` makes [`Semantics`], [`Mode`], [`ArrayEncoding`], [`scans::NoReturn`] and [`scans::TimeField`] values
+//! of a command line's options.
 
 mod cells;
 mod error;

@@ -100,6 +100,20 @@ fn limits(log: &ScanLog) -> Vec<[f64; 2]> {
     log.scans.iter().map(RangeScan::limits).collect()
 }
 
+/// From 81.83 m on SICK's scanners send codes, whatever greatest range a log states.
+#[test]
+fn codes_of_the_scanner_are_no_ranges() {
+    for (stated, meant) in [(81.82, 81.82), (81.83, 81.83), (81.92, 81.83), (82.0, 81.83), (82.5, 82.5)] {
+        let log = read(&robot_laser(7.5).replace("0.5 20 0.01", &format!("0.5 {stated} 0.01"))).unwrap();
+        assert_eq!(limits(&log), [[0.0, meant]]);
+        let log = read(&format!("PARAM robot_front_laser_max {stated}\n{}", front_laser(180, 2.5))).unwrap();
+        assert_eq!(limits(&log), [[0.0, meant]]);
+    }
+    let options = ScanOptions { maximum_range: Some(81.92), ..ScanOptions::default() };
+    let log = ScanLog::read_carmen(robot_laser(7.5).as_bytes(), &options).unwrap();
+    assert_eq!(limits(&log), [[0.0, 81.92]]);
+}
+
 #[test]
 fn times_are_those_of_the_message_or_of_the_logger() {
     let options = ScanOptions { time: TimeField::Logged, ..ScanOptions::default() };

@@ -159,6 +159,7 @@ fn trajectory_seeds() -> Vec<(&'static str, Vec<u8>)> {
         ("unsorted", "1.5 2 3 0 0 0 0 1\n1.25 2 3 0 0 0 0 1\n"),
         ("far", "-1.7e308 1.7e308 -1.7e308 0 0 0 0 1\n1.7e308 -1.7e308 5e-324 0 0 0 1 -0\n"),
         ("cut", "1.5 2 3 0 0 0 0 1\n2.5 2 3 0 0"),
+        ("subnormal", "1.5 5e-324 3 0 0 0 0 1\n2.5 5e-324 3 0 0 0 0 1\n"),
     ]
     .map(|(name, text)| (name, text.as_bytes().to_vec()))
     .to_vec()

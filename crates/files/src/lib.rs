@@ -25,7 +25,7 @@
 //! ```
 //!
 //! [`read_map`] takes a path on a disk, [`read_map_from`] any [`Source`] of files. [`read_map_contents`] counts the cells
-//! of an image and keeps none, for who only measures them. Nothing here measures, prints, or knows of a command line.
+//! of images and arrays, or hands them on in pieces, and keeps none, for who only measures them. Nothing here measures, prints, or knows of a command line.
 //!
 //! A module depends only on those above it:
 //!
@@ -38,9 +38,10 @@
 //! | `source` | [`Source`]: where files come from, a [`Disk`] or [`Memory`] |
 //! | `cells` | [`Cells`]: a grid in one of the encodings, and [`Counts`] of its values |
 //! | `map` | [`Map`]: cells, resolution, warnings |
-//! | `image` | PGM and PNG, from the top a piece at a time |
+//! | `image` | PGM and PNG, from the top a piece at a time; BMP, PPM, JPEG and others, decoded whole |
 //! | [`ros`] | ROS maps: a yaml file that describes an image |
 //! | [`npy`] | NumPy's arrays |
+//! | `npz` | archives of them |
 //! | [`gridmap`] | MRPT's grid maps |
 //! | `read` | files by the ending of their names |
 //!
@@ -52,6 +53,7 @@ pub mod gridmap;
 mod image;
 mod map;
 pub mod npy;
+mod npz;
 mod options;
 mod read;
 pub mod ros;
@@ -59,13 +61,13 @@ mod size;
 mod source;
 mod warning;
 
-pub use cells::{Cells, Contents, Counted, Counts, Readable};
+pub use cells::{Cells, CellsVisitor, Contents, Counted, Counts, Readable};
 pub use error::{Error, ErrorKind, Place};
 pub use map::Map;
 pub use options::{ArrayEncoding, MAX_CELLS, MAX_COUNTED, Mode, Options, Semantics};
 pub use read::{
-    read_map, read_map_contents, read_map_contents_from, read_map_from, read_particles, read_particles_from,
-    read_weights, read_weights_from,
+    file_of, read_map, read_map_contents, read_map_contents_from, read_map_from, read_particles,
+    read_particles_from, read_weights, read_weights_from,
 };
 pub use source::{Disk, Memory, Opened, Source};
 pub use warning::Warning;

@@ -25,8 +25,9 @@
 //! ```
 //!
 //! [`read_map`] takes a path on a disk, [`read_map_from`] any [`Source`] of files. [`read_map_contents`] counts the cells
-//! of an image and keeps none, for who only measures them. [`read_scans`] reads a log of range scans, [`read_trajectory`]
-//! the poses at which they may be inserted into a map. Nothing here measures, prints, or knows of a command line.
+//! of images and arrays, or hands them on in pieces, and keeps none, for who only measures them. [`read_scans`] reads a log
+//! of range scans, [`read_trajectory`] the poses at which they may be inserted into a map. Nothing here measures, prints, or
+//! knows of a command line.
 //!
 //! A module depends only on those above it:
 //!
@@ -39,9 +40,10 @@
 //! | `source` | [`Source`]: where files come from, a [`Disk`] or [`Memory`] |
 //! | `cells` | [`Cells`]: a grid in one of the encodings, and [`Counts`] of its values |
 //! | `map` | [`Map`]: cells, resolution, warnings |
-//! | `image` | PGM and PNG, from the top a piece at a time |
+//! | `image` | PGM and PNG, from the top a piece at a time; BMP, PPM, JPEG and others, decoded whole |
 //! | [`ros`] | ROS maps: a yaml file that describes an image |
 //! | [`npy`] | NumPy's arrays |
+//! | `npz` | archives of them |
 //! | [`gridmap`] | MRPT's grid maps |
 //! | `text` | lines of text and their fields |
 //! | [`trajectory`] | [`Trajectory`]: poses by their times; TUM text |
@@ -57,6 +59,7 @@ pub mod gridmap;
 mod image;
 mod map;
 pub mod npy;
+mod npz;
 mod options;
 mod read;
 pub mod ros;
@@ -67,13 +70,14 @@ mod text;
 pub mod trajectory;
 mod warning;
 
-pub use cells::{Cells, Contents, Counted, Counts, Readable};
+pub use cells::{Cells, CellsVisitor, Contents, Counted, Counts, Readable};
 pub use error::{Error, ErrorKind, Place};
 pub use map::Map;
 pub use options::{ArrayEncoding, MAX_CELLS, MAX_COUNTED, Mode, Options, Semantics};
 pub use read::{
-    read_map, read_map_contents, read_map_contents_from, read_map_from, read_particles, read_particles_from,
-    read_scans, read_scans_from, read_trajectory, read_trajectory_from, read_weights, read_weights_from,
+    file_of, read_map, read_map_contents, read_map_contents_from, read_map_from, read_particles,
+    read_particles_from, read_scans, read_scans_from, read_trajectory, read_trajectory_from, read_weights,
+    read_weights_from,
 };
 pub use source::{Disk, Memory, Opened, Source};
 pub use trajectory::{Association, Trajectory, tum};

@@ -2,24 +2,28 @@
 
 use super::Status;
 use crate::failure::Failure;
-use crate::measures::{Measures, NotMeaningful};
+use crate::measures::{Measures, NotMeaningful, Sums};
 use crate::output::{Files, Number, Record, Report, Value, Writing, short, table, with_notes, wrapped};
 use crate::plots::{self, HeatMap};
 use crate::progress::Progress;
 use crate::reading::{Reading, in_words};
 use clap::Args;
 use mean_information_files::{Map, read_map, read_map_contents};
+use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
 /// The arguments of `meaninfo map`.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// Maps: ROS .yaml (with its .pgm or .png), .npy, MRPT .gridmap or .gridmap.gz.
+    /// Maps: ROS .yaml (with its image), .npy, FILE.npz:KEY, MRPT .gridmap or .gridmap.gz.
     #[arg(value_name = "FILE", required = true)]
     maps: Vec<PathBuf>,
     /// Draw the information of every cell of the one map given to this PNG file.
     #[arg(long, value_name = "FILE.png")]
     heat_map: Option<PathBuf>,
+    /// Measure the maps that can be read even if others cannot; the exit status is 2 still.
+    #[arg(long)]
+    keep_going: bool,
     #[command(flatten)]
     reading: Reading,
     #[command(flatten)]
@@ -37,29 +41,58 @@ impl Arguments {
                 )));
             }
         }
-        let mut files = Files::new();
-        let mut measured = Vec::with_capacity(self.maps.len());
-        let options = self.reading.options();
         let progress = Progress::new(self.maps.len());
-        for path in &self.maps {
-            progress.begin(&path.display().to_string());
-            // Only a picture needs the cells themselves.
-            let row = if let Some(picture) = &self.heat_map {
-                let map = read_map(path, &options)?;
-                let measures = Measures::of(&map.cells);
-                files.add(picture, drawn(path, &map, &measures)?);
-                MeasuredMap::new(path, map, measures, &mut files)
-            } else {
-                let map = read_map_contents(path, &options)?;
-                let measures = Measures::of_contents(&map.cells);
-                MeasuredMap::new(path, map, measures, &mut files)
-            };
-            measured.push(row);
-            progress.done();
-        }
+        // Threads share the files; the results stay in order.
+        let results: Vec<_> = self
+            .maps
+            .par_iter()
+            .map(|path| {
+                progress.begin(&path.display().to_string());
+                let measured = self.measure(path);
+                progress.done();
+                measured
+            })
+            .collect();
         drop(progress);
-        self.writing.write(&MeasuredMaps(measured), files)?;
-        Ok(Status::Done)
+
+        let mut files = Files::new();
+        let (mut measured, mut failures) = (Vec::with_capacity(results.len()), Vec::new());
+        for result in results {
+            match result {
+                Ok(mut map) => {
+                    files.read(std::mem::take(&mut map.files));
+                    if let (Some(path), Some(picture)) = (&self.heat_map, map.picture.take()) {
+                        files.add(path, picture);
+                    }
+                    measured.push(map);
+                }
+                Err(failure) => failures.push(failure),
+            }
+        }
+        if failures.is_empty() || (self.keep_going && !measured.is_empty()) {
+            self.writing.write(&MeasuredMaps(measured), files)?;
+        }
+        match failures.len() {
+            0 => Ok(Status::Done),
+            1 => Err(failures.remove(0)),
+            _ => Err(Failure::Several(failures)),
+        }
+    }
+
+    /// Measures one map, and draws it if a picture is wanted.
+    fn measure(&self, path: &Path) -> Result<MeasuredMap, Failure> {
+        let options = self.reading.options();
+        // Only a picture needs the cells themselves.
+        if self.heat_map.is_some() {
+            let map = read_map(path, &options)?;
+            let measures = Measures::of(&map.cells).noticing(&map.warnings);
+            let picture = drawn(path, &map, &measures)?;
+            return Ok(MeasuredMap::new(path, map, measures, Some(picture)));
+        }
+        let mut sums = Sums::default();
+        let map = read_map_contents(path, &options, &mut sums)?;
+        let measures = Measures::of_contents(&map.cells, &sums).noticing(&map.warnings);
+        Ok(MeasuredMap::new(path, map, measures, None))
     }
 }
 
@@ -77,14 +110,17 @@ struct MeasuredMap {
     resolution: Option<f64>,
     measures: Measures,
     warnings: Vec<String>,
+    /// The files that it was read from.
+    files: Vec<PathBuf>,
+    picture: Option<Vec<u8>>,
 }
 
 impl MeasuredMap {
-    fn new<C>(path: &Path, map: Map<C>, measures: Measures, files: &mut Files) -> Self {
-        files.read(map.files);
+    fn new<C>(path: &Path, map: Map<C>, measures: Measures, picture: Option<Vec<u8>>) -> Self {
         let mut warnings = in_words(&map.warnings);
         warnings.extend(measures.not_meaningful.map(|why| why.warning().to_owned()));
-        Self { name: path.display().to_string(), resolution: map.resolution, measures, warnings }
+        let Map { resolution, files, .. } = map;
+        Self { name: path.display().to_string(), resolution, measures, warnings, files, picture }
     }
 
     fn record(&self) -> Record {

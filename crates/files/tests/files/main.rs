@@ -2,9 +2,12 @@
 
 mod arrays;
 mod bad;
+mod decoded;
 mod errors;
+mod field;
 mod gridmaps;
 mod images;
+mod numpy;
 mod png_kinds;
 mod real;
 mod rules;

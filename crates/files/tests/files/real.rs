@@ -95,7 +95,10 @@ fn a_yaml_whose_image_is_absent_is_refused_by_the_image_s_name() {
     let Some(data) = data() else { return };
     let refused =
         read_twice(&data.join("nav2/invalid_image.yaml"), &Options::default()).unwrap_err().to_string();
-    assert!(refused.contains("invalid.png: cannot be read"), "{refused}");
+    assert!(
+        refused.contains("invalid_image.yaml: image is \"invalid.png\", and there is no file "),
+        "{refused}"
+    );
 }
 
 #[test]

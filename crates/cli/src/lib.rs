@@ -18,6 +18,7 @@
 //! | [`simulation`] | rooms, a robot in them, and the map it makes |
 //! | [`sweep`] | the measures against the size of cells |
 //! | [`convergence`] | grids of a circular room against their limit |
+//! | [`trajectory`] | trajectories compared by the maps that they make of the same scans |
 //! | [`plots`] | pictures of maps, curves, sweeps and convergence |
 //! | [`paper`] | the figures and the claims of the report |
 //! | [`commands`] | the arguments, and what they ask for |
@@ -39,5 +40,6 @@ pub mod protocol;
 pub mod reading;
 pub mod simulation;
 pub mod sweep;
+pub mod trajectory;
 
 pub use failure::Failure;

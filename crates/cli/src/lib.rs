@@ -18,9 +18,9 @@
 //! | [`simulation`] | rooms, a robot in them, and the map it makes |
 //! | [`sweep`] | the measures against the size of cells |
 //! | [`convergence`] | grids of a circular room against their limit |
-//! | [`trajectory`] | trajectories compared by the maps that they make of the same scans |
 //! | [`plots`] | pictures of maps, curves, sweeps and convergence |
 //! | [`paper`] | the figures and the claims of the report |
+//! | [`trajectory`] | trajectories compared by the maps that they make of the same scans |
 //! | [`commands`] | the arguments, and what they ask for |
 
 pub mod check;

@@ -4,10 +4,12 @@ use super::Status;
 use crate::failure::Failure;
 use crate::metres::positive;
 use crate::output::{Files, Writing};
+use crate::plots::{self, Drawing, Picture};
 use crate::progress::Progress;
 use crate::reading::in_words;
 use crate::trajectory::{
-    Candidate, Common, Comparison, Measured, Refused, SensorModel, Setup, Used, Wanted, far_pose, measure_all,
+    Candidate, Common, Comparison, Measured, Pictures, Refused, SensorModel, Setup, Used, Wanted, far_pose,
+    measure_all,
 };
 use clap::{Args, ValueEnum};
 use mean_information::Error;
@@ -28,6 +30,18 @@ pub struct Arguments {
     /// SCANS holds: "laser", the poses of the laser as a SLAM program may have corrected them, and "odometry".
     #[arg(value_name = "POSES")]
     poses: Vec<PathBuf>,
+    /// Draw the mean information against time, one curve a trajectory, to this SVG or PNG file.
+    #[arg(long, value_name = "FILE.svg|png")]
+    series: Option<PathBuf>,
+    /// Draw the information of every cell of each map to this PNG file.
+    #[arg(long, value_name = "FILE.png")]
+    heat_map: Option<PathBuf>,
+    /// Draw where the scans of each map contradict one another, with the path of the laser, to this PNG file.
+    #[arg(long, value_name = "FILE.png")]
+    conflicts: Option<PathBuf>,
+    /// Write a page with all of it, index.html, to this folder; it is made if there is none.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
     /// The side of a cell in metres.
     #[arg(long, value_name = "METRES", default_value_t = 0.05, value_parser = positive::<f64>)]
     resolution: f64,
@@ -105,6 +119,14 @@ struct Association {
 impl Arguments {
     pub(super) fn run(&self) -> Result<Status, Failure> {
         let setup = self.setup()?;
+        let series = self.series.as_deref().map(Picture::by_name).transpose()?;
+        for picture in [&self.heat_map, &self.conflicts].into_iter().flatten() {
+            plots::require_png(picture)?;
+        }
+        let mut files = Files::new();
+        if let Some(folder) = &self.out {
+            files.make_folder(folder)?;
+        }
         let log = self.log()?;
         let (mount, mount_in_words) = self.mount(&log)?;
         let candidates = self.candidates(&log, &mount)?;
@@ -112,9 +134,12 @@ impl Arguments {
         if common.scans.is_empty() {
             return Err(self.nothing_in_common(&log, &candidates));
         }
-        let mut files = Files::new();
         files.read(log.files.iter().cloned().chain(self.poses.iter().cloned()));
-        let wanted = Wanted::default();
+        let is_page = self.out.is_some();
+        let wanted = Wanted {
+            series: is_page || series.is_some(),
+            pictures: is_page || self.heat_map.is_some() || self.conflicts.is_some(),
+        };
         let measured = self.measured(&setup, &candidates, &common, wanted)?;
         let used = Used {
             log: self.scans.display().to_string(),
@@ -126,6 +151,19 @@ impl Arguments {
             warnings: in_words(&log.warnings),
         };
         let comparison = Comparison::new(used, &candidates, &common, &measured);
+        let pictures = Pictures { comparison: &comparison, common: &common, measured: &measured };
+        if let (Some(path), Some(picture)) = (&self.series, series) {
+            files.add(path, pictures.series().draw(picture)?);
+        }
+        if let Some(path) = &self.heat_map {
+            files.add(path, pictures.heat_maps()?);
+        }
+        if let Some(path) = &self.conflicts {
+            files.add(path, pictures.conflicts()?);
+        }
+        if let Some(folder) = &self.out {
+            files.add(&folder.join("index.html"), pictures.page()?.into_bytes());
+        }
         self.writing.write(&comparison, files)?;
         Ok(Status::Done)
     }

@@ -3,6 +3,7 @@
 use super::axis::{Axis, power_of_ten};
 use super::drawing::{Drawing, LABEL};
 use super::frame::{Side, curve, frame, legend};
+use super::marks::Marks;
 use super::scale::{logarithmic_ticks, ticks};
 use crate::output::short;
 use plotters::coord::Shift;
@@ -62,8 +63,8 @@ pub struct Curve {
     pub name: String,
     /// The colour.
     pub colour: Colour,
-    /// True if each point gets a dot.
-    pub dots: bool,
+    /// The marks on its points.
+    pub marks: Marks,
     /// The points, from left to right.
     pub points: Vec<(f64, f64)>,
 }
@@ -77,6 +78,12 @@ pub enum Colour {
     Orange,
     /// The third.
     Grey,
+    /// The fourth.
+    Green,
+    /// The fifth.
+    Purple,
+    /// The sixth.
+    Brown,
 }
 
 impl Colour {
@@ -85,6 +92,9 @@ impl Colour {
             Self::Blue => RGBColor(0, 90, 170),
             Self::Orange => RGBColor(190, 75, 0),
             Self::Grey => RGBColor(120, 120, 120),
+            Self::Green => RGBColor(0, 130, 90),
+            Self::Purple => RGBColor(140, 60, 160),
+            Self::Brown => RGBColor(125, 85, 20),
         }
     }
 }
@@ -167,10 +177,10 @@ impl<const PANELS: usize> Chart<PANELS> {
             let foot = EmptyElement::at((x, bottom + 0.08 * (top - bottom)));
             chart.draw_series([foot + Text::new(name, (away, 0), style)])?;
         }
-        for Curve { name, colour, dots, points } in &panel.curves {
+        for Curve { name, colour, marks, points } in &panel.curves {
             let points: Vec<_> =
                 points.iter().map(|&(x, y)| (self.scale.place(x), panel.scale.place(y))).collect();
-            curve(&mut chart, name, colour.rgb(), *dots, &points)?;
+            curve(&mut chart, name, colour.rgb(), *marks, &points)?;
         }
         legend(&mut chart)
     }

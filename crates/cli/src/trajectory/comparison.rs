@@ -5,7 +5,9 @@ use super::labels::labels;
 use super::measure::{BLOCKS, Measured};
 use super::setup::Setup;
 use super::warnings;
+use super::weakest::Weakest;
 use crate::measures::Measures;
+use crate::one_line::one_line;
 use crate::output::{Number, Record, Report, Value, short, table, with_notes, wrapped};
 use mean_information::scan::Difference;
 
@@ -46,6 +48,8 @@ pub struct Row {
     pub revisited: u64,
     /// The difference from the first row; `None` of the first, and where there is one scan alone.
     pub difference: Option<Difference>,
+    /// Where it is worst, of a row that is not the best.
+    pub weakest: Option<Weakest>,
     /// The signs that the row means less than it seems.
     pub warnings: Vec<String>,
 }
@@ -69,6 +73,12 @@ impl Comparison {
                 one.without.iter().zip(&other.without).map(|(a, b)| [a.clone(), b.clone()]).collect();
             Difference::by_jackknife([&one.tally, &other.tally], &without).ok()
         };
+        // From the most information to the least; of equal ones the first first.
+        let mut order: Vec<_> = (0..measured.len()).collect();
+        order.sort_by(|&a, &b| {
+            let [a, b] = [a, b].map(|k| measured[k].tally.mean_information());
+            b.total_cmp(&a)
+        });
         let all = candidates.iter().zip(&common.without_pose).zip(measured).enumerate();
         let rows = all.map(|(index, ((candidate, &scans_without_pose), own))| {
             let mut row = Row {
@@ -77,6 +87,9 @@ impl Comparison {
                 measures: Measures::of_tally(own.size, &own.tally),
                 agreement: own.agreement,
                 revisited: own.revisited(),
+                weakest: (index != order[0])
+                    .then(|| Weakest::of(common, measured, index, order[0]))
+                    .flatten(),
                 difference: if index == 0 { None } else { against(&measured[0], own) },
                 warnings: candidate.warnings.clone(),
             };
@@ -88,20 +101,29 @@ impl Comparison {
         let rows: Vec<_> = rows.collect();
         let mut used = used;
         used.warnings.extend(warnings::of_scans(&used, common.silent));
-        // From the most information to the least; of equal ones the first first.
-        let mut order: Vec<_> = (0..measured.len()).collect();
-        order.sort_by(|&a, &b| {
-            let [a, b] = [a, b].map(|k| measured[k].tally.mean_information());
-            b.total_cmp(&a)
-        });
         let verdict = match *order {
             [best, next, ..] => against(&measured[next], &measured[best]).map(|difference| {
-                let names = labels(&rows.iter().map(|row| row.name.clone()).collect::<Vec<_>>());
+                let names = labels(&candidates.iter().map(|of| of.name.clone()).collect::<Vec<_>>());
                 verdict([&names[best], &names[next]], &difference)
             }),
             _ => None,
         };
         Self { used, rows, verdict }
+    }
+
+    /// Returns short names of the rows.
+    pub fn labels(&self) -> Vec<String> {
+        labels(&self.rows.iter().map(|row| row.name.clone()).collect::<Vec<_>>())
+    }
+
+    /// Returns what is to be said of the log and of the rows, each with the name of what it is about.
+    pub(super) fn notes(&self) -> impl Iterator<Item = (&str, &str)> {
+        let of_log = self.used.warnings.iter().map(|note| (self.used.log.as_str(), note.as_str()));
+        let of_rows = self
+            .rows
+            .iter()
+            .flat_map(|row| row.warnings.iter().map(|note| (row.name.as_str(), note.as_str())));
+        of_log.chain(of_rows)
     }
 
     /// Says what the maps were made of, in words.
@@ -196,16 +218,17 @@ impl Row {
 
 impl Report for Comparison {
     fn table(&self) -> String {
-        let log = self.used.log.as_str();
-        let of_log = self.made_of();
-        let of_log = of_log.iter().chain(&self.used.warnings).map(|note| (log, note.as_str()));
-        let of_rows = self
+        let made_of = self.made_of();
+        let made_of = made_of.iter().map(|note| (self.used.log.as_str(), note.as_str()));
+        let worst: Vec<_> = self.rows.iter().map(|row| row.weakest.as_ref().map(Weakest::in_words)).collect();
+        let worst = self
             .rows
             .iter()
-            .flat_map(|row| row.warnings.iter().map(|note| (row.name.as_str(), note.as_str())));
+            .zip(&worst)
+            .filter_map(|(row, worst)| Some((row.name.as_str(), worst.as_deref()?)));
         let text = table(Row::HEADS, self.rows.iter().map(|row| row.cells(&self.used)));
-        let text = with_notes(text, of_log.chain(of_rows));
-        self.verdict.iter().fold(text, |text, verdict| text + &crate::one_line::one_line(verdict) + "\n")
+        let text = with_notes(text, made_of.chain(self.notes()).chain(worst));
+        self.verdict.iter().fold(text, |text, verdict| text + &one_line(verdict) + "\n")
     }
 
     fn rows(&self) -> Vec<Record> {

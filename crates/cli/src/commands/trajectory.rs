@@ -4,7 +4,7 @@ use super::Status;
 use crate::failure::Failure;
 use crate::metres::positive;
 use crate::output::{Files, Writing};
-use crate::plots::{self, Drawing, Picture};
+use crate::plots::{self, Picture};
 use crate::progress::Progress;
 use crate::reading::in_words;
 use crate::trajectory::{
@@ -153,7 +153,7 @@ impl Arguments {
         let comparison = Comparison::new(used, &candidates, &common, &measured);
         let pictures = Pictures { comparison: &comparison, common: &common, measured: &measured };
         if let (Some(path), Some(picture)) = (&self.series, series) {
-            files.add(path, pictures.series().draw(picture)?);
+            files.add(path, pictures.series(picture)?);
         }
         if let Some(path) = &self.heat_map {
             files.add(path, pictures.heat_maps()?);

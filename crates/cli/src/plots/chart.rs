@@ -59,7 +59,7 @@ pub struct Panel {
 /// Points that are connected.
 #[derive(Debug)]
 pub struct Curve {
-    /// The name in the legend.
+    /// The name in the legend; empty if it has none there.
     pub name: String,
     /// The colour.
     pub colour: Colour,
@@ -157,7 +157,8 @@ impl<const PANELS: usize> Chart<PANELS> {
         let own = || panel.curves.iter().flat_map(|curve| &curve.points);
         let horizontal = self.scale.axis(all().map(|&(x, _)| self.scale.place(x)), MARGINS[0], 0.0);
         // The legend takes a part of the height; of the points' span, that much more.
-        let part = (LEGEND[0] * panel.curves.len() as f64 + LEGEND[1]) / PLOT_HEIGHT;
+        let named = panel.curves.iter().filter(|curve| !curve.name.is_empty()).count();
+        let part = (LEGEND[0] * named as f64 + LEGEND[1]) / PLOT_HEIGHT;
         let free = part / (1.0 - part) * (1.0 + 2.0 * MARGINS[1]);
         let vertical = panel.scale.axis(own().map(|&(_, y)| panel.scale.place(y)), MARGINS[1], free);
         let (bottom, top) = (vertical.range.start, vertical.range.end);

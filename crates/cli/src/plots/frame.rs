@@ -43,7 +43,7 @@ pub(super) fn frame<'a, B: DrawingBackend>(
     Ok(frame)
 }
 
-/// Draws a line through the points, with its marks, and its line in the legend.
+/// Draws a line through the points, with its marks, and its line in the legend, if it has a name.
 pub(super) fn curve<'a, B: DrawingBackend + 'a>(
     frame: &mut Frame<'a, B>,
     name: &str,
@@ -51,14 +51,15 @@ pub(super) fn curve<'a, B: DrawingBackend + 'a>(
     marks: Marks,
     points: &[(f64, f64)],
 ) -> Result<(), Failure<B::ErrorType>> {
-    frame.draw_series(LineSeries::new(points.iter().copied(), colour.stroke_width(2)))?.label(name).legend(
-        move |at| {
+    let line = frame.draw_series(LineSeries::new(points.iter().copied(), colour.stroke_width(2)))?;
+    if !name.is_empty() {
+        line.label(name).legend(move |at| {
             EmptyElement::at(at)
                 + PathElement::new([(0, 0), (20, 0)], colour.stroke_width(2))
                 + Circle::new((10, 0), if marks == Marks::Each { 4 } else { 0 }, colour.filled())
                 + Polygon::new(marks.outline((10, 0)), colour.filled())
-        },
-    );
+        });
+    }
     match marks {
         Marks::None => {}
         Marks::Each => {

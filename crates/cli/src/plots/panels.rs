@@ -5,6 +5,7 @@ use super::drawing::drawing_failure;
 use super::map_picture::{PATH as PATH_LINE, block};
 use super::svg::Svg;
 use crate::failure::Failure;
+use crate::output::short;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use mean_information::Real;
@@ -19,6 +20,8 @@ const SCALE: f64 = 44.0;
 /// A cell is drawn as a square of pixels, so many that the map has about this many pixels a side: viewers that smooth
 /// what they enlarge would blur it.
 const PIXELS: usize = 1000;
+/// The least length of the scale's bar, in pixels.
+const LEAST_BAR: f64 = 24.0;
 const UNKNOWN: [u8; 3] = [176, 190, 206];
 const PATH: &str = "#BE4B00";
 
@@ -159,13 +162,23 @@ impl MapPanel {
             ));
         }
         let y = TITLES + height + GAP;
+        let metres = round_length(LEAST_BAR / scale);
+        let bar = scale * metres;
         sheet.add(&format!(
-            r##"<path d="M{x} {:.2}v10M{x} {y:.2}h{scale:.2}m0 -5v10" stroke="#000000" fill="none"/>"##,
+            r##"<path d="M{x} {:.2}v10M{x} {y:.2}h{bar:.2}m0 -5v10" stroke="#000000" fill="none"/>"##,
             y - 5.0
         ));
-        sheet.add_text(x + scale + 24.0, y + 6.0, "normal", "1 m");
+        // The text is set about its middle; a digit is about 10 pixels wide.
+        let text = format!("{} m", short(metres));
+        sheet.add_text(x + bar + 9.0 + 5.0 * text.len() as f64, y + 6.0, "normal", &text);
         sheet
     }
+}
+
+/// Returns the least of 1, 2, 5, 10, 20, 50, ... that is not below `least`, in metres.
+fn round_length(least: f64) -> f64 {
+    let decades = std::iter::successors(Some(1.0), |decade| Some(decade * 10.0)).take(300);
+    decades.flat_map(|decade| [decade, 2.0 * decade, 5.0 * decade]).find(|&length| length >= least).unwrap_or(1.0)
 }
 
 #[cfg(test)]
@@ -207,6 +220,12 @@ mod tests {
         assert!((number(&circle, "cx") - GAP / 2.0 - scale).abs() <= 0.01);
         assert!((number(&circle, "cy") - TITLES - scale / 2.0).abs() <= 0.01);
         assert!(images[0].attribute("href").unwrap().starts_with("data:image/png;base64,iVBOR"));
+    }
+
+    #[test]
+    fn bars_are_round_and_long_enough() {
+        let lengths = [0.01, 1.0, 1.1, 4.0, 5.5, 31.0, 199.0].map(round_length);
+        assert_eq!(lengths, [1.0, 1.0, 2.0, 5.0, 10.0, 50.0, 200.0]);
     }
 
     #[test]

@@ -126,6 +126,12 @@ impl Comparison {
         of_log.chain(of_rows)
     }
 
+    /// Says where each trajectory but the best is worst, with its name.
+    pub(super) fn worst(&self) -> Vec<(&str, String)> {
+        let worst = |row: &'_ Row| row.weakest.as_ref().map(Weakest::in_words);
+        self.rows.iter().filter_map(|row| Some((row.name.as_str(), worst(row)?))).collect()
+    }
+
     /// Says what the maps were made of, in words.
     pub fn made_of(&self) -> [String; 2] {
         let Used { scans, scans_used, beams, setup, mount, .. } = &self.used;
@@ -220,12 +226,8 @@ impl Report for Comparison {
     fn table(&self) -> String {
         let made_of = self.made_of();
         let made_of = made_of.iter().map(|note| (self.used.log.as_str(), note.as_str()));
-        let worst: Vec<_> = self.rows.iter().map(|row| row.weakest.as_ref().map(Weakest::in_words)).collect();
-        let worst = self
-            .rows
-            .iter()
-            .zip(&worst)
-            .filter_map(|(row, worst)| Some((row.name.as_str(), worst.as_deref()?)));
+        let worst = self.worst();
+        let worst = worst.iter().map(|(name, worst)| (*name, worst.as_str()));
         let text = table(Row::HEADS, self.rows.iter().map(|row| row.cells(&self.used)));
         let text = with_notes(text, made_of.chain(self.notes()).chain(worst));
         self.verdict.iter().fold(text, |text, verdict| text + &one_line(verdict) + "\n")

@@ -5,7 +5,7 @@ use super::pictures::Pictures;
 use crate::failure::Failure;
 use crate::one_line::one_line;
 use crate::output::{self, escaped, short};
-use crate::plots::{Sheet, Svg, panels};
+use crate::plots::{Sheet, panels};
 
 const MEANING: &str = include_str!("meaning.html");
 
@@ -22,19 +22,24 @@ impl Pictures<'_> {
             comparison.verdict.iter().map(|verdict| format!("<p class=\"answer\">{}.</p>\n", text(verdict)));
         let answer: String = answer.collect();
         let made_of: String =
-            comparison.made_of().iter().map(|line| format!("{}.<br/>\n", text(line))).collect();
+            comparison.made_of().iter().map(|line| format!("{}.<br/>\n", capital(&text(line)))).collect();
         let log = text(&used.log);
         let notes: String = comparison
             .notes()
             .map(|(name, note)| format!("<li><strong>{}</strong>: {}.</li>\n", text(name), text(note)))
             .collect();
         let notes = if notes.is_empty() { notes } else { format!("<ul class=\"notes\">\n{notes}</ul>\n") };
+        let worst = comparison.worst();
+        let worst: String = worst
+            .iter()
+            .map(|(name, worst)| format!("<p><strong>{}</strong> is {}.</p>\n", text(name), text(worst)))
+            .collect();
         let heads: String = Row::HEADS.iter().enumerate().map(|(k, head)| th(k, head)).collect();
         let rows: String = comparison.rows.iter().map(|row| tr(&row.cells(used))).collect();
-        let curves = Sheet::new(vec![vec![Svg::of_plot(&self.series())?]], self.described());
+        let curves = Sheet::new(vec![vec![self.series_svg()?]], self.described());
         let (maps, top) = self.panels()?;
         let maps =
-            Sheet::new(panels(&maps, 2), "Each trajectory's map beside its contradictions.".to_owned());
+            Sheet::new(maps.chunks(2).flat_map(|pair| panels(pair, 2)).collect(), "Each trajectory's map beside its contradictions.".to_owned());
         let (curves, maps, top) = (curves.element(), maps.element(), short(top));
         let body = format!(
             r##"{answer}<p>Trajectories compared by the maps that they make of the scans of <code>{log}</code>, without ground truth:
@@ -53,13 +58,13 @@ where a trajectory is wrong, scans contradict one another.</p>
 <figure>
 {curves}<figcaption>The mean information of the map as it is made, scan by scan. It rises where places are seen again and
 agree, and falls where new ground is seen once, or where a trajectory went wrong: look where a curve leaves the
-others.</figcaption>
+first.</figcaption>
 </figure>
-</section>
+{worst}</section>
 <section id="maps">
 <h2>Where</h2>
 <figure>
-{maps}<figcaption>Left the map: white is free, black is occupied, blue-grey is unknown. Right the evidence that cancels,
+{maps}<figcaption>First the map: white is free, black is occupied, blue-grey is unknown. Beside or below it the evidence that cancels,
 from <span class="ramp conflicts"></span> little to {top} nats per cell and more, with the path of the laser in blue, from its dot.
 Walls that are seen twice are where a trajectory is wrong; doors and people contradict under any.</figcaption>
 </figure>
@@ -86,18 +91,25 @@ fn th(column: usize, head: &str) -> String {
     format!("<th scope=\"col\"{}>{}</th>", class(column), escaped(&head.replace('\n', " ")))
 }
 
+/// Begins a sentence.
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+}
+
 /// Returns a row; on a narrow screen each cell has its head before it.
 fn tr(cells: &[String; 7]) -> String {
     let cell = |(column, text): (usize, &String)| {
-        let text = escaped(&if column == 0 { text.replace('\n', "") } else { text.replace('\n', ", ") });
+        let text = escaped(&if column == 0 {
+            text.replace('\n', "")
+        } else {
+            text.replace('\n', ", ").replace(' ', "\u{a0}")
+        });
         if column == 0 {
             return format!("<td>{text}</td>");
         }
         let head = escaped(&Row::HEADS[column].replace('\n', " "));
         format!("<td data-label=\"{head}\"{}>{text}</td>", class(column))
     };
-    format!(
-        "<tr>{}</tr>\n",
-        cells.iter().enumerate().filter(|(_, text)| !text.is_empty()).map(cell).collect::<String>()
-    )
+    format!("<tr>{}</tr>\n", cells.iter().enumerate().map(cell).collect::<String>())
 }

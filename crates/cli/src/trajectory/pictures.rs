@@ -5,10 +5,10 @@ use super::comparison::Comparison;
 use super::measure::Measured;
 use crate::failure::Failure;
 use crate::plots::{
-    Chart, Colour, ConflictMap, Curve, HeatMap, MapPanel, Marks, Panel, Scale, Shape, conflict_scale,
+    Chart, Colour, ConflictMap, Curve, Drawing, HeatMap, MapPanel, Marks, Panel, Picture, Scale, Shape, Svg,
+    conflict_scale,
 };
 use mean_information::scan::Pose;
-use mean_information_files::scans::RangeScan;
 
 /// The colours of curves, in their order.
 const COLOURS: [Colour; 5] = [Colour::Blue, Colour::Orange, Colour::Green, Colour::Purple, Colour::Brown];
@@ -29,43 +29,65 @@ pub struct Pictures<'a> {
 }
 
 impl Pictures<'_> {
-    /// Returns the curves of the mean information against time.
-    pub fn series(&self) -> Chart<1> {
-        let times: Vec<_> = self
-            .common
-            .scans
-            .iter()
-            .map(|scan| RangeScan::time(scan) - self.common.scans[0].time())
-            .collect();
-        let labels = self.comparison.labels();
-        let curve = |(index, (label, measured)): (usize, (String, &Measured))| {
-            let all = times.iter().copied().zip(measured.series.iter().copied()).collect::<Vec<_>>();
-            let stride = all.len().div_ceil(POINTS).max(1);
-            // The last point is the row of the table.
-            let mut points: Vec<_> = all.iter().copied().step_by(stride).collect();
-            points.extend(all.last().filter(|_| (all.len() - 1) % stride != 0));
-            let own = index < CURVES;
-            Curve {
-                name: if own { label } else { format!("the other {}", self.measured.len() - CURVES) },
-                colour: if own { COLOURS[index % COLOURS.len()] } else { Colour::Grey },
-                marks: if own {
-                    Marks::Spaced(Shape::ALL[(index + index / COLOURS.len()) % Shape::ALL.len()])
-                } else {
-                    Marks::None
-                },
-                points,
-            }
+    /// Draws the curves of the mean information against time, and below them how far each is above the first.
+    ///
+    /// # Errors
+    /// None is known.
+    pub fn series(&self, picture: Picture) -> Result<Vec<u8>, Failure> {
+        match self.curves() {
+            (all, None) => all.draw(picture),
+            (all, Some(differences)) => both(all, differences).draw(picture),
+        }
+    }
+
+    /// Returns the curves as a part of a page.
+    pub(super) fn series_svg(&self) -> Result<Svg, Failure> {
+        match self.curves() {
+            (all, None) => Svg::of_plot(&all),
+            (all, Some(differences)) => Svg::of_plot(&both(all, differences)),
+        }
+    }
+
+    /// Returns the chart of all curves, and the panel of their differences from the first if there are others.
+    fn curves(&self) -> (Chart<1>, Option<Panel>) {
+        let of = |first: Option<&[f64]>| -> Vec<Curve> {
+            let labels = self.comparison.labels().into_iter().zip(self.measured).enumerate();
+            labels
+                .skip(usize::from(first.is_some()))
+                .map(|(index, (label, measured))| self.curve(index, label, &measured.series, first))
+                .collect()
         };
-        Chart {
+        let panel = |vertical, curves| Panel { vertical, scale: Scale::Linear, curves, marks: Vec::new() };
+        let all = Chart {
             title: "mean information as scans come".to_owned(),
             horizontal: "time since the first scan (s)",
             scale: Scale::Linear,
-            panels: [Panel {
-                vertical: "mean information (bits / cell)",
-                scale: Scale::Linear,
-                curves: labels.into_iter().zip(self.measured).enumerate().map(curve).collect(),
-                marks: Vec::new(),
-            }],
+            panels: [panel("mean information (bits / cell)", of(None))],
+        };
+        let differences = of(self.measured.first().map(|first| first.series.as_slice()));
+        (all, (!differences.is_empty()).then(|| panel("less the first (bits / cell)", differences)))
+    }
+
+    /// Returns a curve of values, or of how far they are above those of the first.
+    fn curve(&self, index: usize, label: String, values: &[f64], first: Option<&[f64]>) -> Curve {
+        let scans = &self.common.scans;
+        let times = scans.iter().map(|scan| scan.time() - scans[0].time());
+        let value = |scan: usize| values[scan] - first.map_or(0.0, |first| first[scan]);
+        let all: Vec<_> = times.zip(0..values.len()).map(|(time, scan)| (time, value(scan))).collect();
+        let stride = all.len().div_ceil(POINTS).max(1);
+        let mut points: Vec<_> = all.iter().copied().step_by(stride).collect();
+        // The last point is the row of the table.
+        points.extend(all.last().filter(|_| !(all.len() - 1).is_multiple_of(stride)));
+        if index < CURVES {
+            let shape = Shape::ALL[(index + index / COLOURS.len()) % Shape::ALL.len()];
+            Curve { name: label, colour: COLOURS[index % COLOURS.len()], marks: Marks::Spaced(shape), points }
+        } else {
+            let name = if index == CURVES {
+                format!("the other {}", self.measured.len() - CURVES)
+            } else {
+                String::new()
+            };
+            Curve { name, colour: Colour::Grey, marks: Marks::None, points }
         }
     }
 
@@ -130,4 +152,10 @@ impl Pictures<'_> {
     fn each(&self) -> impl Iterator<Item = (String, usize)> {
         self.comparison.labels().into_iter().zip(0..)
     }
+}
+
+/// Puts the differences below the curves.
+fn both(all: Chart<1>, differences: Panel) -> Chart<2> {
+    let Chart { title, horizontal, scale, panels: [values] } = all;
+    Chart { title, horizontal, scale, panels: [values, differences] }
 }

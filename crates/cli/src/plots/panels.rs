@@ -178,7 +178,10 @@ impl MapPanel {
 /// Returns the least of 1, 2, 5, 10, 20, 50, ... that is not below `least`, in metres.
 fn round_length(least: f64) -> f64 {
     let decades = std::iter::successors(Some(1.0), |decade| Some(decade * 10.0)).take(300);
-    decades.flat_map(|decade| [decade, 2.0 * decade, 5.0 * decade]).find(|&length| length >= least).unwrap_or(1.0)
+    decades
+        .flat_map(|decade| [decade, 2.0 * decade, 5.0 * decade])
+        .find(|&length| length >= least)
+        .unwrap_or(1.0)
 }
 
 #[cfg(test)]

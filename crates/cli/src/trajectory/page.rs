@@ -38,8 +38,10 @@ impl Pictures<'_> {
         let rows: String = comparison.rows.iter().map(|row| tr(&row.cells(used))).collect();
         let curves = Sheet::new(vec![vec![self.series_svg()?]], self.described());
         let (maps, top) = self.panels()?;
-        let maps =
-            Sheet::new(maps.chunks(2).flat_map(|pair| panels(pair, 2)).collect(), "Each trajectory's map beside its contradictions.".to_owned());
+        let maps = Sheet::new(
+            maps.chunks(2).flat_map(|pair| panels(pair, 2)).collect(),
+            "Each trajectory's map beside its contradictions.".to_owned(),
+        );
         let (curves, maps, top) = (curves.element(), maps.element(), short(top));
         let body = format!(
             r##"{answer}<p>Trajectories compared by the maps that they make of the scans of <code>{log}</code>, without ground truth:

@@ -93,7 +93,7 @@ fn panel(
     let curve = |times: &Times| Curve {
         name: times.name.to_owned(),
         colour: times.colour,
-        dots: true,
+        marks: Marks::Each,
         points: times.points.iter().map(|&(x, y)| (x, of(&times.points, y))).collect(),
     };
     Panel { vertical, scale, curves: times.iter().map(curve).collect(), marks: Vec::new() }

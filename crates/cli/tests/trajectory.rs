@@ -71,16 +71,17 @@ fn model(range: f64) -> Result<SteppedSensor<f64>, Error> {
     SteppedSensor::new(range, 0.2, 0.4, 0.7)
 }
 
-/// The tally of the map without a block of scans, by the library alone, and the map.
-fn built(poses: &str, left_out: core::ops::Range<usize>) -> ScanMap<f64> {
+/// The map of the sample by a trajectory, and its tallies without each of 20 blocks of scans, by the library alone.
+fn built(poses: &str) -> (ScanMap<f64>, Vec<Tally<f64>>) {
     let (log, poses) = sample(poses);
+    let scan =
+        |(record, pose): (&RangeScan, Pose)| record.scan_from(pose, NoReturn::LeftOut).unwrap().unwrap();
+    let scans: Vec<_> = log.scans.iter().zip(poses).map(scan).collect();
     let mut map = ScanMap::new(0.2).unwrap().with_agreement().unwrap();
-    for (k, (record, pose)) in log.scans.iter().zip(poses).enumerate() {
-        if !left_out.contains(&k) {
-            map.insert(&record.scan_from(pose, NoReturn::LeftOut).unwrap().unwrap(), model).unwrap();
-        }
-    }
-    map
+    scans.iter().try_for_each(|scan| map.insert(scan, model)).unwrap();
+    let tallied = TalliedMap::new(map);
+    let without = blocks(150, 20).map(|block| tallied.without(&scans[block], model).unwrap()).collect();
+    (tallied.into_map(), without)
 }
 
 #[test]
@@ -88,7 +89,8 @@ fn rows_are_those_of_the_library_called_directly() {
     let text = stdout(&[&["trajectory", LOG, TRUE, ODOMETRY, "--format", "json"], &COARSE[..]].concat());
     assert_eq!(keys(&text, 4), [&KEYS[..], &["standard_error_hex", "warnings"]].concat().repeat(2));
     let rows: Vec<Value> = serde_json::from_str(&text).unwrap();
-    let maps = [TRUE, ODOMETRY].map(|poses| built(poses, 0..0));
+    let [(truth, without_truth), (odometry, without_odometry)] = [TRUE, ODOMETRY].map(built);
+    let maps = [truth, odometry];
     for ((row, map), name) in rows.iter().zip(&maps).zip([TRUE, ODOMETRY]) {
         let tally = map.tally();
         assert_twins(row, 7);
@@ -111,9 +113,7 @@ fn rows_are_those_of_the_library_called_directly() {
         assert_eq!(row["sensor"], "stepped: free 0.4, occupied 0.7, walls 0.2 m thick");
     }
     assert_eq!(rows[0]["difference"], Value::Null);
-    let without =
-        |block: core::ops::Range<usize>| [TRUE, ODOMETRY].map(|poses| built(poses, block.clone()).tally());
-    let without: Vec<[Tally<f64>; 2]> = blocks(150, 20).map(without).collect();
+    let without: Vec<_> = without_truth.into_iter().zip(without_odometry).map(<[_; 2]>::from).collect();
     let whole = [maps[0].tally(), maps[1].tally()];
     let difference = Difference::by_jackknife([&whole[0], &whole[1]], &without).unwrap();
     assert_eq!(rows[1]["difference"].as_f64(), Some(difference.value()));
@@ -162,18 +162,20 @@ fn the_series_ends_at_the_row_and_threads_change_no_bit() {
 fn the_page_needs_no_other_file_and_the_pictures_are_the_same_again() {
     let folder = Folder::new();
     let run = |k: usize| {
-        let names = ["series.svg", "series.png", "heat.png", "conflicts.png"]
-            .map(|name| folder.text_path(&format!("{k}{name}")));
+        let names =
+            ["series.svg", "heat.png", "conflicts.png"].map(|name| folder.text_path(&format!("{k}{name}")));
         let out = folder.text_path(&format!("{k}page"));
-        for series in &names[..2] {
-            let drawn =
-                ["--series", series, "--heat-map", &names[2], "--conflicts", &names[3], "--out", &out];
-            stdout(&[&["trajectory", LOG, TRUE, ODOMETRY], &COARSE[..], &drawn].concat());
-        }
-        names.into_iter().chain([format!("{out}/index.html")]).map(|name| read(&name)).collect::<Vec<_>>()
+        let drawn = ["--series", &names[0], "--heat-map", &names[1], "--conflicts", &names[2], "--out", &out];
+        stdout(&[&["trajectory", LOG, TRUE, ODOMETRY], &COARSE[..], &drawn].concat());
+        names.into_iter().chain([format!("{out}/index.html")]).map(read).collect::<Vec<_>>()
     };
     let files = run(0);
     assert!(files == run(1));
+    let series = folder.text_path("series.png");
+    stdout(&["trajectory", LOG, TRUE, "--resolution", "0.5", "--series", &series]);
+    // Of one trajectory there is nothing to compare with: one panel.
+    let series = Pixels::of_png(&read(&series));
+    assert_eq!((series.width, series.height), (640, 386));
     let svg = roxmltree::Document::parse(text(&files[0])).unwrap();
     for label in ["room.true.tum", "room.odometry.tum", "time since the first scan (s)"] {
         assert!(
@@ -181,7 +183,7 @@ fn the_page_needs_no_other_file_and_the_pictures_are_the_same_again() {
             "{label}"
         );
     }
-    let page = text(&files[4]);
+    let page = text(&files[3]);
     let document = roxmltree::Document::parse(page.trim_start_matches("<!DOCTYPE html>\n")).unwrap();
     for attribute in document.descendants().flat_map(|node| node.attributes()) {
         assert!(!["href", "src"].contains(&attribute.name()) || attribute.value().starts_with("data:"));

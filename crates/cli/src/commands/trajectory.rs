@@ -65,8 +65,8 @@ pub struct Arguments {
 #[command(next_help_heading = "Sensor")]
 struct Sensor {
     /// The inverse sensor model of a beam.
-    #[arg(long, value_enum, default_value_t)]
-    sensor: SensorName,
+    #[arg(long = "sensor", value_enum, default_value_t)]
+    model: SensorName,
     /// Stepped: the occupancy of free space, from 0 to 1/2; 0.4 if absent.
     #[arg(long, value_name = "P")]
     free: Option<f64>,
@@ -170,9 +170,9 @@ impl Arguments {
 
     /// Returns how maps are made.
     fn setup(&self) -> Result<Setup, Failure> {
-        let Sensor { sensor, free, occupied, thickness, sigma, reading_limit, no_return, .. } = self.sensor;
+        let Sensor { model, free, occupied, thickness, sigma, reading_limit, no_return, .. } = self.sensor;
         let usage = |message: &str| Err(Failure::Usage(message.to_owned()));
-        let sensor = match (sensor, sigma) {
+        let sensor = match (model, sigma) {
             (SensorName::Stepped, None) => SensorModel::Stepped {
                 free: free.unwrap_or(0.4),
                 occupied: occupied.unwrap_or(0.7),
@@ -274,26 +274,8 @@ impl Arguments {
         progress.begin(&format!("scans, inserted and left out, of {} {maps}", candidates.len()));
         let threads = self.threads.or_else(|| thread::available_parallelism().ok()).map_or(1, NonZero::get);
         let step = || progress.done();
-        measure_all(setup, &common.scans, &common.poses, wanted, threads, &step).map_err(
-            |(index, refused)| self.unmapped(&candidates[index], common, &common.poses[index], refused),
-        )
-    }
-
-    /// Says why a map cannot be made, and what to do.
-    fn unmapped(&self, of: &Candidate, common: &Common<'_>, poses: &[Pose], refused: Refused) -> Failure {
-        let Refused { scan, error } = refused;
-        let message = match error {
-            Error::TooManyCells { count, limit, .. } => {
-                let (far, distance) = far_pose(poses);
-                let ([x, y], time) = (poses[far].position(), common.scans[far].time());
-                format!(
-                    "the map would have {count:.3e} cells, allowed are {limit}; the pose at {time} s, {x} {y}, is {distance:.0} m \
-                     from the middle of the others: correct it, or give a larger --resolution or --max-cells"
-                )
-            }
-            error => format!("the scan at {} s: {error}", common.scans[scan].time()),
-        };
-        Failure::file(&of.file, message)
+        measure_all(setup, &common.scans, &common.poses, wanted, threads, &step)
+            .map_err(|(index, refused)| unmapped(&candidates[index], common, &common.poses[index], refused))
     }
 
     /// Says that no scan has a pose of every trajectory.
@@ -310,6 +292,23 @@ impl Arguments {
         );
         Failure::file(&self.scans, message)
     }
+}
+
+/// Says why a map cannot be made, and what to do.
+fn unmapped(of: &Candidate, common: &Common<'_>, poses: &[Pose], refused: Refused) -> Failure {
+    let Refused { scan, error } = refused;
+    let message = match error {
+        Error::TooManyCells { count, limit, .. } => {
+            let (far, distance) = far_pose(poses);
+            let ([x, y], time) = (poses[far].position(), common.scans[far].time());
+            format!(
+                "the map would have {count:.3e} cells, allowed are {limit}; the pose at {time} s, {x} {y}, is {distance:.0} m \
+                 from the middle of the others: correct it, or give a larger --resolution or --max-cells"
+            )
+        }
+        error => format!("the scan at {} s: {error}", common.scans[scan].time()),
+    };
+    Failure::file(&of.file, message)
 }
 
 /// Refuses by their names what holds scans and is not read yet.

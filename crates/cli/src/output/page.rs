@@ -8,7 +8,7 @@ const STYLE: &str = include_str!("page.css");
 pub(crate) fn page(title: &str, body: &str) -> String {
     let title = escaped(title);
     format!(
-        r##"<!DOCTYPE html>
+        r#"<!DOCTYPE html>
 <html lang="en">
 <head>
 <meta charset="utf-8"/>
@@ -23,6 +23,6 @@ pub(crate) fn page(title: &str, body: &str) -> String {
 {body}</main>
 </body>
 </html>
-"##
+"#
     )
 }

@@ -18,22 +18,20 @@ impl Pictures<'_> {
         let comparison = self.comparison;
         let used = &comparison.used;
         let text = |text: &str| escaped(&one_line(text));
-        let answer =
-            comparison.verdict.iter().map(|verdict| format!("<p class=\"answer\">{}.</p>\n", text(verdict)));
-        let answer: String = answer.collect();
-        let made_of: String =
-            comparison.made_of().iter().map(|line| format!("{}.<br/>\n", capital(&text(line)))).collect();
+        let line = |line: &String| format!("{}.<br/>\n", capital(&text(line)));
+        let note = |(name, note): (&str, &str)| {
+            format!("<li><strong>{}</strong>: {}.</li>\n", text(name), text(note))
+        };
+        let worst = |(name, worst): (&str, String)| {
+            format!("<p><strong>{}</strong> is {}.</p>\n", text(name), text(&worst))
+        };
+        let answer = |answer: &String| format!("<p class=\"answer\">{}.</p>\n", text(answer));
         let log = text(&used.log);
-        let notes: String = comparison
-            .notes()
-            .map(|(name, note)| format!("<li><strong>{}</strong>: {}.</li>\n", text(name), text(note)))
-            .collect();
+        let made_of: String = comparison.made_of().iter().map(line).collect();
+        let notes: String = comparison.notes().map(note).collect();
         let notes = if notes.is_empty() { notes } else { format!("<ul class=\"notes\">\n{notes}</ul>\n") };
-        let worst = comparison.worst();
-        let worst: String = worst
-            .iter()
-            .map(|(name, worst)| format!("<p><strong>{}</strong> is {}.</p>\n", text(name), text(worst)))
-            .collect();
+        let worst: String = comparison.worst().into_iter().map(worst).collect();
+        let answer: String = comparison.verdict.iter().map(answer).collect();
         let heads: String = Row::HEADS.iter().enumerate().map(|(k, head)| th(k, head)).collect();
         let rows: String = comparison.rows.iter().map(|row| tr(&row.cells(used))).collect();
         let curves = Sheet::new(vec![vec![self.series_svg()?]], self.described());
@@ -44,7 +42,7 @@ impl Pictures<'_> {
         );
         let (curves, maps, top) = (curves.element(), maps.element(), short(top));
         let body = format!(
-            r##"{answer}<p>Trajectories compared by the maps that they make of the scans of <code>{log}</code>, without ground truth:
+            r#"{answer}<p>Trajectories compared by the maps that they make of the scans of <code>{log}</code>, without ground truth:
 where a trajectory is wrong, scans contradict one another.</p>
 <section id="rows">
 <h2>The maps in numbers</h2>
@@ -71,7 +69,7 @@ from <span class="ramp conflicts"></span> little to {top} nats per cell and more
 Walls that are seen twice are where a trajectory is wrong; doors and people contradict under any.</figcaption>
 </figure>
 </section>
-{MEANING}"##
+{MEANING}"#
         );
         Ok(output::page("Which trajectory is right?", &body))
     }

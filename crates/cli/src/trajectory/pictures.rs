@@ -4,6 +4,7 @@ use super::common::Common;
 use super::comparison::Comparison;
 use super::measure::Measured;
 use crate::failure::Failure;
+use crate::output::Number;
 use crate::plots::{
     Chart, Colour, ConflictMap, Curve, Drawing, HeatMap, MapPanel, Marks, Panel, Picture, Scale, Shape, Svg,
     conflict_scale,
@@ -129,7 +130,7 @@ impl Pictures<'_> {
         for ((label, index), conflicts) in self.each().zip(self.conflict_maps()) {
             let Some((grid, _)) = &self.measured[index].pictures else { continue };
             let row = &self.comparison.rows[index];
-            let mean = row.measures.mean_information.map_or(0.0, |x| x.widen());
+            let mean = row.measures.mean_information.map_or(0.0, Number::widen);
             panels.push(MapPanel::new(grid, &label, format!("{mean:.4} bits per cell"))?);
             panels.push(conflicts.panel("its contradictions", format!("agreement {:.4}", row.agreement))?);
         }

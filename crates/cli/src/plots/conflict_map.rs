@@ -12,10 +12,10 @@ use mean_information::scan::Layer;
 
 /// The part of the contradictions that have colours of their own; the greatest of all would leave the others pale.
 const WITHIN: f64 = 0.99;
-/// How much of its darkness an occupied cell keeps beside the colours.
+/// The part of its darkness that an occupied cell keeps beside the colours.
 const FAINT: f64 = 0.35;
 
-/// Where the scans of a map contradict one another.
+/// The contradictions of the scans of a map, as squares of colour.
 #[derive(Debug)]
 pub struct ConflictMap {
     size: [usize; 2],

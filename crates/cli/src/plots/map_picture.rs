@@ -63,7 +63,7 @@ pub(super) struct Key {
     pub(super) ticks: Vec<(f64, String)>,
     /// The colours that are not on the bar.
     pub(super) swatches: Vec<(&'static str, [u8; 3])>,
-    /// What a square of several cells shows of them.
+    /// The meaning of a square of several cells.
     pub(super) reduction: &'static str,
 }
 

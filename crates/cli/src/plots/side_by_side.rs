@@ -6,7 +6,7 @@ use super::drawing::drawing_failure;
 use super::heat_map::HeatMap;
 use crate::failure::Failure;
 
-/// How many maps stand beside each other.
+/// The number of maps beside each other.
 const COLUMNS: usize = 2;
 
 impl HeatMap {

@@ -24,9 +24,9 @@ pub struct Candidate {
 pub struct Common<'a> {
     /// The scans, in the order of their times.
     pub scans: Vec<&'a RangeScan>,
-    /// Of each trajectory the poses of the laser, one for each scan.
+    /// The poses of the laser by each trajectory, one for each scan.
     pub poses: Vec<Vec<Pose>>,
-    /// Of each trajectory the number of scans without a pose.
+    /// The number of scans without a pose, of each trajectory.
     pub without_pose: Vec<usize>,
     /// The number of scans no beam of which says anything, whether or not they have poses.
     pub silent: usize,
@@ -35,7 +35,7 @@ pub struct Common<'a> {
 }
 
 impl<'a> Common<'a> {
-    /// Finds them; between two poses no further apart than `max_gap` seconds poses are interpolated.
+    /// Finds the scans for which every candidate has a pose, and these poses; between two poses no further apart than `max_gap` seconds poses are interpolated.
     ///
     /// # Errors
     /// A trajectory that has no time in common with the scans; no scan left.

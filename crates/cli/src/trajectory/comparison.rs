@@ -14,7 +14,7 @@ use mean_information::scan::Difference;
 /// The quantile of Student's distribution with 19 degrees of freedom, one less than blocks: 95 % lie within it on both sides.
 const CLEAR: f64 = 2.093;
 
-/// What the rows were measured of.
+/// The scans that the rows were measured of, and how.
 #[derive(Clone, Debug)]
 pub struct Used {
     /// The name of the log.
@@ -25,7 +25,7 @@ pub struct Used {
     pub scans_used: usize,
     /// The number of their beams that say something.
     pub beams: u64,
-    /// How the maps were made.
+    /// The setup of the maps.
     pub setup: Setup,
     /// The laser on the robot, in words.
     pub mount: String,
@@ -48,7 +48,7 @@ pub struct Row {
     pub revisited: u64,
     /// The difference from the first row; `None` of the first, and where there is one scan alone.
     pub difference: Option<Difference>,
-    /// Where it is worst, of a row that is not the best.
+    /// The part of the log where it is worst, of a row that is not the best.
     pub weakest: Option<Weakest>,
     /// The signs that the row means less than it seems.
     pub warnings: Vec<String>,
@@ -57,7 +57,7 @@ pub struct Row {
 /// Trajectories compared on the same scans.
 #[derive(Clone, Debug)]
 pub struct Comparison {
-    /// What the rows were measured of.
+    /// The scans that the rows were measured of, and how.
     pub used: Used,
     /// The rows, in the order in which the trajectories were given.
     pub rows: Vec<Row>,
@@ -66,7 +66,7 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Puts measures together.
+    /// Creates a comparison from what was measured of each candidate.
     pub fn new(used: Used, candidates: &[Candidate], common: &Common<'_>, measured: &[Measured]) -> Self {
         let against = |one: &Measured, other: &Measured| {
             let without: Vec<_> =

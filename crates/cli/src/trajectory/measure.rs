@@ -14,7 +14,7 @@ use std::thread;
 /// (`docs/evidence.md`, "Coverage").
 pub const BLOCKS: usize = 20;
 
-/// What is wanted beside the row of a trajectory.
+/// The parts that are measured beside the row of a trajectory.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Wanted {
     /// The mean information after each scan.
@@ -121,7 +121,7 @@ fn inserted(
 /// them. A thread holds one map at a time.
 ///
 /// # Errors
-/// That of the first trajectory that has one, with its number.
+/// The refusal of the first trajectory that has one, with its number.
 pub fn measure_all(
     setup: &Setup,
     records: &[&RangeScan],

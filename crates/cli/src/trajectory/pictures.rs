@@ -18,7 +18,7 @@ const CURVES: usize = 8;
 /// The most points of a curve.
 const POINTS: usize = 640;
 
-/// What pictures are drawn from.
+/// The data that pictures are drawn from.
 #[derive(Clone, Copy, Debug)]
 pub struct Pictures<'a> {
     /// The rows.

@@ -5,7 +5,7 @@ use mean_information::Error;
 use mean_information::scan::{Pose, Scan, ScanMap};
 use mean_information_files::scans::{NoReturn, RangeScan};
 
-/// How a map is made of scans: the same for all trajectories that are compared.
+/// The way a map is made of scans: the same for all trajectories that are compared.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setup {
     /// The side of a cell, in metres.

@@ -16,7 +16,7 @@ pub struct Weakest {
 }
 
 impl Weakest {
-    /// Finds that of trajectory `own`, which is not the `best`; `None` if leaving out no block brings them nearer.
+    /// Finds the block of trajectory `own`, which is not the `best`; `None` if leaving out no block brings them nearer.
     pub(super) fn of(common: &Common<'_>, measured: &[Measured], own: usize, best: usize) -> Option<Self> {
         let (own_map, best_map) = (&measured[own], &measured[best]);
         let below = best_map.tally.mean_information() - own_map.tally.mean_information();
@@ -33,7 +33,7 @@ impl Weakest {
         (least < below).then_some(Self { times, place, below: [below, least] })
     }
 
-    /// Says it in words.
+    /// Says in words where the trajectory is worst.
     pub(super) fn in_words(&self) -> String {
         let Self { times: [from, to], place: [x, y], below: [all, rest] } = self;
         format!(

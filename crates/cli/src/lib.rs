@@ -20,6 +20,7 @@
 //! | [`convergence`] | grids of a circular room against their limit |
 //! | [`plots`] | pictures of maps, curves, sweeps and convergence |
 //! | [`paper`] | the figures and the claims of the report |
+//! | [`trajectory`] | trajectories compared by the maps that they make of the same scans |
 //! | [`commands`] | the arguments, and what they ask for |
 
 pub mod check;
@@ -39,5 +40,6 @@ pub mod protocol;
 pub mod reading;
 pub mod simulation;
 pub mod sweep;
+pub mod trajectory;
 
 pub use failure::Failure;

@@ -78,9 +78,9 @@ impl Measures {
         Self::new([counts.width, counts.height], &tally, marked)
     }
 
-    /// Takes the measures of an expected map, of which only the sums are known: a cell that is unknown there is not marked so
-    /// by anyone, but no percentage either.
-    pub fn of_expected<T: Real>(size: [usize; 2], tally: &Tally<T>) -> Self {
+    /// Takes the measures of a map of which only the sums are known, as an expected one or one of scans: a cell that is unknown
+    /// there is not marked so by anyone, but no percentage either.
+    pub fn of_tally<T: Real>(size: [usize; 2], tally: &Tally<T>) -> Self {
         Self::new(size, tally, || tally.unknown() > 0)
     }
 

@@ -111,7 +111,7 @@ impl MapsVisitor for Expecting<'_> {
         progress.begin("expected map");
         // The particles of a file are all of one size.
         let size = maps.first().map_or([0; 2], |map| [map.width(), map.height()]);
-        let measures = Measures::of_expected(size, &hypotheses.expected_tally()?);
+        let measures = Measures::of_tally(size, &hypotheses.expected_tally()?);
         progress.done();
         let mut particles = Vec::with_capacity(maps.len());
         for (index, map) in maps.iter().enumerate() {

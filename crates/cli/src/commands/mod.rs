@@ -9,6 +9,7 @@ mod paper;
 mod port;
 mod simulate;
 mod sweep;
+mod trajectory;
 
 use crate::failure::Failure;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
@@ -45,6 +46,9 @@ impl Arguments {
 pub enum Command {
     /// The mean information of maps, and what it is made of.
     Map(map::Arguments),
+    /// Which trajectory makes the most consistent map of these scans: the mean information and the agreement of the map of each,
+    /// without ground truth.
+    Trajectory(Box<trajectory::Arguments>),
     /// The mean information of a map against its resolution, by averaging cells 2 x 2, 4 x 4, ...; what lies beyond the
     /// map's edge is unknown.
     Sweep(sweep::Arguments),
@@ -73,6 +77,7 @@ impl Command {
     pub fn run(&self) -> Result<Status, Failure> {
         match self {
             Self::Map(arguments) => arguments.run(),
+            Self::Trajectory(arguments) => arguments.run(),
             Self::Sweep(arguments) => arguments.run(),
             Self::Limit(arguments) => arguments.run(),
             Self::Converge(arguments) => arguments.run(),

@@ -3,6 +3,7 @@
 use crate::png_kinds::{Kind, SIZE};
 use crate::rules::{Rule, read_with, rules};
 use crate::support::{Random, percents, probabilities, read_twice};
+use approx::abs_diff_eq;
 use mean_information_files::{Cells, Mode, Options, Semantics, Warning};
 use mean_information_test_support::formats::{Folder, pgm, raw_png, yaml, zlib};
 use std::borrow::Cow;
@@ -61,7 +62,7 @@ fn every_kind_of_png_under_both_loaders_and_all_modes() {
                 } else {
                     1.0 - shade
                 };
-                assert!((p - expected).abs() < 1e-15, "{kind:?} {pixel:?} {p} {expected}");
+                assert!(abs_diff_eq!(p, expected, epsilon = 1e-15), "{kind:?} {pixel:?} {p} {expected}");
                 assert_eq!(p == 0.5, expected == 0.5, "{kind:?} {pixel:?}");
             }
         }

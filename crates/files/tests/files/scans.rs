@@ -1,5 +1,6 @@
 //! CARMEN logs: what each message says, and logs that must be refused.
 
+use approx::abs_diff_eq;
 use mean_information::scan::Pose;
 use mean_information_files::scans::carmen::{MAXIMUM_RANGE, Record, Records, write};
 use mean_information_files::scans::{
@@ -64,7 +65,7 @@ fn the_number_of_beams_says_their_angles() {
         let bearings = log.scans[0].bearings();
         for (beam, degrees) in [(0, first), (beams - 1, last)] {
             let bearing: f64 = bearings.at(beam);
-            assert!((bearing.to_degrees() - degrees).abs() < 1e-12, "{beams} {bearing}");
+            assert!(abs_diff_eq!(bearing.to_degrees(), degrees, epsilon = 1e-12), "{beams} {bearing}");
         }
     }
 }

@@ -415,3 +415,21 @@ fn the_rows_of_a_public_log() {
         );
     }
 }
+
+/// The poses inside that log are those of the TUM files, to six digits: the yaw goes through a quaternion.
+#[test]
+fn the_poses_of_a_public_log_are_those_beside_it() {
+    let Some(log) = shared("slam/intel.log") else { return };
+    let log = read_scans(&log, &ScanOptions::default()).unwrap();
+    for (held, file) in log.trajectories.iter().zip(["slam/intel.slam.tum", "slam/intel.odometry.tum"]) {
+        let Some(file) = shared(file) else { return };
+        let (beside, _) = read_trajectory(&file).unwrap();
+        let found = beside.at_times(&log.times(), 0.0).unwrap();
+        assert_eq!(found.without_pose, 0, "{}", held.name);
+        for (own, other) in held.trajectory.poses().iter().zip(found.poses.into_iter().flatten()) {
+            let ([x, y], [u, v]) = (own.position(), other.position());
+            let turn = libm::remainder(own.theta() - other.theta(), std::f64::consts::TAU);
+            assert!([x - u, y - v, turn].iter().all(|apart| apart.abs() < 1e-6), "{own:?} {other:?}");
+        }
+    }
+}

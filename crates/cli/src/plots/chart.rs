@@ -158,7 +158,8 @@ impl<const PANELS: usize> Chart<PANELS> {
         let horizontal = self.scale.axis(all().map(|&(x, _)| self.scale.place(x)), MARGINS[0], 0.0);
         // The legend takes a part of the height; of the points' span, that much more.
         let named = panel.curves.iter().filter(|curve| !curve.name.is_empty()).count();
-        let part = (LEGEND[0] * named as f64 + LEGEND[1]) / PLOT_HEIGHT;
+        let legend_height = if named == 0 { 0.0 } else { LEGEND[0] * named as f64 + LEGEND[1] };
+        let part = legend_height / PLOT_HEIGHT;
         let free = part / (1.0 - part) * (1.0 + 2.0 * MARGINS[1]);
         let vertical = panel.scale.axis(own().map(|&(_, y)| panel.scale.place(y)), MARGINS[1], free);
         let (bottom, top) = (vertical.range.start, vertical.range.end);
@@ -183,6 +184,6 @@ impl<const PANELS: usize> Chart<PANELS> {
                 points.iter().map(|&(x, y)| (self.scale.place(x), panel.scale.place(y))).collect();
             curve(&mut chart, name, colour.rgb(), *marks, &points)?;
         }
-        legend(&mut chart)
+        if named == 0 { Ok(()) } else { legend(&mut chart) }
     }
 }

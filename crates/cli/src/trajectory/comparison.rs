@@ -87,9 +87,10 @@ impl Comparison {
                 measures: Measures::of_tally(own.size, &own.tally),
                 agreement: own.agreement,
                 revisited: own.revisited(),
-                weakest: (index != order[0])
-                    .then(|| Weakest::of(common, measured, index, order[0]))
-                    .flatten(),
+                // Of a difference that may be chance no part is to blame.
+                weakest: against(own, &measured[order[0]])
+                    .filter(is_clear)
+                    .and_then(|_| Weakest::of(common, measured, index, order[0])),
                 difference: if index == 0 { None } else { against(&measured[0], own) },
                 warnings: candidate.warnings.clone(),
             };
@@ -148,10 +149,15 @@ impl Comparison {
     }
 }
 
+/// Tells whether the second map is better by more than chance explains: 97.5 % of the differences that chance makes are below.
+fn is_clear(difference: &Difference) -> bool {
+    difference.blocks() == BLOCKS && difference.value() > CLEAR * difference.standard_error()
+}
+
 /// Tells which of the two best is better.
 fn verdict([best, next]: [&str; 2], difference: &Difference) -> String {
     let (value, error) = (difference.value(), difference.standard_error());
-    if difference.blocks() == BLOCKS && value > CLEAR * error {
+    if is_clear(difference) {
         let times =
             if error > 0.0 { format!(", {:.1} standard errors", value / error) } else { String::new() };
         format!("{best} makes the most consistent map: {value:.4} bits per cell above {next}{times}")

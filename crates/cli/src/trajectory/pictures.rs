@@ -14,7 +14,7 @@ use mean_information::scan::Pose;
 /// The colours of curves, in their order.
 const COLOURS: [Colour; 5] = [Colour::Blue, Colour::Orange, Colour::Green, Colour::Purple, Colour::Brown];
 /// The most curves that a legend has room for; those that follow are grey.
-const CURVES: usize = 8;
+const CURVES: usize = 6;
 /// The most points of a curve.
 const POINTS: usize = 640;
 
@@ -79,15 +79,15 @@ impl Pictures<'_> {
         let mut points: Vec<_> = all.iter().copied().step_by(stride).collect();
         // The last point is the row of the table.
         points.extend(all.last().filter(|_| !(all.len() - 1).is_multiple_of(stride)));
+        // The panel below has the colours and marks of that above.
+        let is_named = first.is_none() && index <= CURVES;
         if index < CURVES {
             let shape = Shape::ALL[(index + index / COLOURS.len()) % Shape::ALL.len()];
-            Curve { name: label, colour: COLOURS[index % COLOURS.len()], marks: Marks::Spaced(shape), points }
+            let name = if is_named { label } else { String::new() };
+            Curve { name, colour: COLOURS[index % COLOURS.len()], marks: Marks::Spaced(shape), points }
         } else {
-            let name = if index == CURVES {
-                format!("the other {}", self.measured.len() - CURVES)
-            } else {
-                String::new()
-            };
+            let others = self.measured.len() - CURVES;
+            let name = if is_named { format!("{others} more") } else { String::new() };
             Curve { name, colour: Colour::Grey, marks: Marks::None, points }
         }
     }

@@ -24,8 +24,8 @@ impl<T: Real> Rigorous<T> {
     ///
     /// Special cases: a panel on which `f` is not defined, or not on its middle half, is named by
     /// [`Status::NotFinite`], one on which it has no bound by [`Status::Unresolved`]. The enclosure then has no bounds:
-    /// `-inf` to `inf`. A stretch without values that is narrower than half a panel can pass unseen: a range is that of
-    /// the part where `f` is defined.
+    /// `-inf` to `inf`. A stretch without values elsewhere in a panel can pass unseen: a range is that of the part where
+    /// `f` is defined.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if an end is not finite, or a setting not as its function says; also if both tolerances

@@ -319,7 +319,8 @@ fn the_limit_of_evaluations_is_kept() {
         let integral = rule.integrate(&Entropy, 0.0, 1.0).unwrap();
         assert!(holds(integral, "0.7213475204444817036799623405009460687133"), "{limit}");
         assert_eq!(integral.status == Status::EvaluationLimit, limit < 1000, "{limit}");
-        assert!(integral.evaluations <= limit.max(18), "{limit}: {}", integral.evaluations);
+        // 16 nodes, the ranges of the survey, of the panel and of its middle half.
+        assert!(integral.evaluations <= limit.max(19), "{limit}: {}", integral.evaluations);
     }
 }
 

@@ -15,10 +15,10 @@ impl<T: Real> Rigorous<T> {
     /// Encloses the integral of `f` from `from` to `to`: the negative of the one from `to` to `from`, 0 if they are
     /// equal.
     ///
-    /// `f` must be defined between the ends, but at single points: the caller's part. It is evaluated over intervals, and over
-    /// rectangles of the complex plane, to prove that it is analytic there. Where it is not, as `√x` at 0, panels are
-    /// bisected until their width times the range of `f` is small enough: singular ends cost little, singular points
-    /// inside as much as twice an end.
+    /// `f` must be defined between the ends, but at single points: the caller's part. It is evaluated over intervals,
+    /// and over rectangles of the complex plane, to prove that it is analytic there. Where it is not, as `√x` at 0,
+    /// panels are bisected until their width times the range of `f` is small enough: singular ends cost little, singular
+    /// points inside as much as twice an end.
     ///
     /// Error: none; the enclosure contains the integral (proved in [`integration`](crate::book::integration)).
     ///

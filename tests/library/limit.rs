@@ -361,6 +361,55 @@ impl RadialModel for InMetres {
     }
 }
 
+/// Two peaks, broad and narrow, in one piece or in two: from 0 to 1200, cut at the narrow one.
+struct TwoPeaks {
+    is_cut: bool,
+}
+
+impl RadialModel for TwoPeaks {
+    type Float = f64;
+
+    fn origin(&self) -> f64 {
+        0.0
+    }
+
+    fn scale(&self) -> f64 {
+        1.0
+    }
+
+    fn pieces<S: Scalar>(&self) -> Vec<Piece<S>> {
+        let piece = |start, length, panels| Piece::new(S::constant(start), S::constant(length), panels);
+        if self.is_cut {
+            // 8^-8 of the length is below the width of the peak.
+            vec![piece(1000.25, -1000.25, 8), piece(1000.25, 199.75, 8)]
+        } else {
+            vec![piece(0.0, 1200.0, 1)]
+        }
+    }
+
+    fn entropy<S: Scalar>(&self, _: usize, t: S) -> S {
+        let peak = |at, width| {
+            let t = (t.clone() - S::constant(at)) / S::constant(width);
+            S::constant(0.375) * (S::constant(-0.5) * t.square()).exp()
+        };
+        peak(300.0, 10.0) + peak(1000.25, 0.001)
+    }
+}
+
+/// Beside another peak a narrow one is seen if a piece starts there, and, as the documentation says, not otherwise.
+#[test]
+fn a_second_peak_needs_a_piece_of_its_own() {
+    let model = |is_cut| TwoPeaks { is_cut };
+    let enclosure = rigorous(&model(true), Weight::Radial, &Rigorous::default()).unwrap();
+    let is_missed = |is_cut| {
+        let settings = GaussKronrod::new().relative(1e-9);
+        let estimate = adaptive(&model(is_cut), Weight::Radial, &settings).unwrap();
+        assert_eq!(estimate.status, Status::Converged);
+        (estimate.value - enclosure.lower).abs() > estimate.error + enclosure.width()
+    };
+    assert!(!is_missed(true) && is_missed(false));
+}
+
 /// A peak at the end of a piece, and one inside.
 #[test]
 fn a_narrow_peak_in_metres_is_seen() {

@@ -42,6 +42,7 @@ chapters! {
     guarantees;
     operations;
     porting;
+    files;
     paper;
     architecture;
 }

@@ -14,4 +14,5 @@ mod rules;
 mod seeds;
 mod sources;
 mod support;
+mod table;
 mod warnings;

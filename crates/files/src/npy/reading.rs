@@ -34,12 +34,13 @@ impl MapsVisitor for OnlyMap {
     type Output = Option<(Cells, Vec<Warning>)>;
 
     fn visit<E: Readable>(self, maps: Vec<Grid<E>>) -> Self::Output {
-        let cells = E::cells(maps.into_iter().next()?);
-        let warnings = match &cells {
-            Cells::Percent(grid) => of_percentages(&Histogram::from_cells(grid.cells())),
-            Cells::Mrpt(_) => Vec::new(),
-            cells => crate::with_grid!(cells, grid => FloatWatch::of(grid).warnings()),
-        };
+        let grid = maps.into_iter().next()?;
+        let bytes = size_of::<E::Stored>() == 1;
+        let mut warnings = if bytes { Vec::new() } else { FloatWatch::of(&grid).warnings() };
+        let cells = E::cells(grid);
+        if let Cells::Percent(grid) = &cells {
+            warnings = of_percentages(&Histogram::from_cells(grid.cells()));
+        }
         Some((cells, warnings))
     }
 }

@@ -15,5 +15,6 @@ mod scans;
 mod seeds;
 mod sources;
 mod support;
+mod table;
 mod trajectories;
 mod warnings;

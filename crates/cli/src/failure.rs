@@ -67,7 +67,7 @@ impl Failure {
 /// Tells whether a cell was refused whose value often means unknown, and for which `--unknown` can be given.
 fn may_be_unknown(error: &Error) -> bool {
     let of_floats = error.allowed().is_some_and(|allowed| !allowed.contains("percentage"));
-    matches!(error.place(), Some(Place::Cell { map: None, .. }))
+    matches!(error.place(), Some(Place::Cell { .. }))
         && of_floats
         && matches!(error.value(), Some("NaN" | "-1"))
 }

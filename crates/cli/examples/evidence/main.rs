@@ -18,6 +18,7 @@ mod points;
 mod ranks;
 mod relations;
 mod report;
+mod row;
 mod rule;
 
 use clap::Parser;
@@ -31,6 +32,7 @@ use perturbed::Perturbed;
 use plane::{Place, place};
 use relations::Errors;
 use report::Evidence;
+use row::Row;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Mutex;
@@ -55,14 +57,6 @@ struct Arguments {
     threads: usize,
     #[command(flatten)]
     writing: Writing,
-}
-
-/// A trajectory with its errors and measures.
-#[derive(Debug)]
-struct Row {
-    made: Perturbed,
-    errors: Errors,
-    measured: Measured,
 }
 
 fn main() -> ExitCode {

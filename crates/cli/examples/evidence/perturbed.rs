@@ -53,11 +53,10 @@ impl Kind {
         match self {
             Self::Corrected | Self::Odometry | Self::Moved => &[0.0],
             Self::Drift => &[0.0005, 0.001, 0.002, 0.004, 0.008, 0.016],
-            Self::Jumps => &[0.02, 0.05, 0.1, 0.2, 0.5, 1.0],
+            Self::Jumps | Self::Blend => &[0.02, 0.05, 0.1, 0.2, 0.5, 1.0],
             Self::Jitter => &[0.005, 0.01, 0.02, 0.05, 0.1, 0.2],
             Self::Bias => &[0.0001, 0.0002, 0.0005, 0.001, 0.002, 0.004],
             Self::Scale => &[0.002, 0.005, 0.01, 0.02, 0.05, 0.1],
-            Self::Blend => &[0.02, 0.05, 0.1, 0.2, 0.5, 1.0],
         }
     }
 
@@ -73,7 +72,7 @@ impl Kind {
     pub(crate) fn seeds(self) -> u64 {
         match self {
             Self::Corrected | Self::Odometry => 1,
-            Self::Moved => 8,
+            Self::Moved => 6,
             _ => 3,
         }
     }
@@ -167,4 +166,45 @@ fn along(
         places.push(compose(places[k], step)?);
     }
     Ok(places)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn round() -> Vec<Place> {
+        let mut places = vec![[0.25, -3.0, 0.5]];
+        for k in 0..60 {
+            places.push(compose(places[k], [0.3, 0.01, 0.1]).unwrap());
+        }
+        places
+    }
+
+    fn distance(one: &[Place], other: &[Place]) -> f64 {
+        one.iter().zip(other).map(|(a, b)| libm::hypot(a[0] - b[0], a[1] - b[1])).sum()
+    }
+
+    /// No error leaves the trajectory, up to rounding; a greater one is further away; all have as many poses.
+    #[test]
+    fn errors_grow_from_none() {
+        let odometry: Vec<_> = round().iter().map(|&[x, y, theta]| [1.1 * x, y, theta]).collect();
+        for kind in Kind::ERRORS {
+            let of = |size| perturbed(kind, size, 2, &round(), &odometry).unwrap();
+            assert!(distance(&round(), &of(0.0)) < 1e-10, "{kind:?}");
+            let distances: Vec<_> = kind.sizes().iter().map(|&size| distance(&round(), &of(size))).collect();
+            assert!(distances.is_sorted() && distances[0] > 0.0, "{kind:?} {distances:?}");
+        }
+        let all = all(&round(), &odometry).unwrap();
+        assert_eq!(all.len(), 2 + 6 + 6 * 6 * 3);
+        assert!(all.iter().all(|made| made.places.len() == 61));
+    }
+
+    /// A move of the whole keeps the ways between poses.
+    #[test]
+    fn a_move_is_no_error() {
+        let moved = perturbed(Kind::Moved, 0.0, 3, &round(), &round()).unwrap();
+        assert!(distance(&moved, &round()) > 1.0);
+        let ways = [&moved, &round()].map(|places| relative(places[3], places[50]).unwrap());
+        assert!(ways[0].iter().zip(ways[1]).all(|(a, b)| (a - b).abs() < 1e-12), "{ways:?}");
+    }
 }

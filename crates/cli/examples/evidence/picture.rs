@@ -126,3 +126,36 @@ impl Binary {
         areas - 1
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mean_information::map::Geometry;
+
+    /// Two rooms with walls one cell thick, one of them open: 14 by 9 cells of half a metre.
+    #[test]
+    fn of_rooms() {
+        let plan = [
+            "..............",
+            ".#####..#####.",
+            ".#...#..#...#.",
+            ".#...#..#...#.",
+            ".#...#......#.",
+            ".#...#..#...#.",
+            ".#...#..#...#.",
+            ".#####..#####.",
+            "..............",
+        ];
+        let cells: Vec<f64> = plan
+            .iter()
+            .flat_map(|row| row.bytes())
+            .map(|cell| if cell == b'#' { 0.75 } else { -0.5 })
+            .collect();
+        let grid = Grid::new(14, 9, Geometry::new(0.5, [0.25, -3.0]).unwrap(), cells).unwrap();
+        let picture = Picture::new(&grid);
+        assert_eq!(picture.enclosed_areas, 1);
+        assert_eq!(picture.occupied_share, 39.0 / 87.0);
+        // The corners of the rooms, at least; ends of the walls at the opening, too.
+        assert!((8..=12).contains(&picture.corners), "{picture:?}");
+    }
+}

@@ -51,3 +51,33 @@ pub(crate) fn mean_map_entropy(points: &[[f64; 2]], radius: f64) -> f64 {
     }
     sum / f64::from(count)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A lattice fills each circle alike: about a quarter of the squared radius of variance along both axes, which a plain sum
+    /// finds, too.
+    #[test]
+    fn of_a_lattice() {
+        let (side, radius) = (0.125, 1.5);
+        let points: Vec<_> =
+            (0..200).flat_map(|i| (0..200).map(move |j| [i, j].map(|k| f64::from(k) * side))).collect();
+        let inside: Vec<_> = (-12..=12)
+            .flat_map(|i| (-12..=12).map(move |j| [i, j].map(|k| f64::from(k) * side)))
+            .filter(|[x, y]| x * x + y * y <= radius * radius)
+            .collect();
+        let variance = inside.iter().map(|[x, _]| x * x).sum::<f64>() / (inside.len() as f64 - 1.0);
+        assert!((variance / (radius * radius / 4.0) - 1.0).abs() < 0.05, "{variance}");
+        let entropy = ln(2.0 * PI * E * variance);
+        // Points at the border have part of a circle.
+        let found = mean_map_entropy(&points, radius);
+        assert!(found < entropy && entropy - found < 0.1, "{found} {entropy}");
+    }
+
+    #[test]
+    fn points_on_a_line_are_left_out() {
+        let line: Vec<_> = (0..100).map(|k| [f64::from(k) * 0.01, 0.75]).collect();
+        assert!(mean_map_entropy(&line, 0.3).is_nan());
+    }
+}

@@ -17,7 +17,7 @@ pub(crate) struct Correlation {
 impl Correlation {
     /// Correlates the ranks of numbers; the interval is always by the same random samples.
     pub(crate) fn new(x: &[f64], y: &[f64]) -> Self {
-        let mut random = Random::new(2026_11_30);
+        let mut random = Random::new(20_261_130);
         let count = x.len();
         let mut values: Vec<f64> = (0..SAMPLES)
             .map(|_| {
@@ -55,4 +55,29 @@ fn ranks(numbers: &[f64]) -> Vec<f64> {
         first += group.len();
     }
     ranks
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// By hand: ranks 0, 1.5, 1.5, 3 and 1, 0, 2, 3 have sums of products 3, 4.5 and 5.
+    #[test]
+    fn ties_share_their_rank() {
+        assert_eq!(ranks(&[0.25, 7.0, 7.0, 9.5]), [0.0, 1.5, 1.5, 3.0]);
+        let found = spearman(&[0.25, 7.0, 7.0, 9.5], &[3.0, -1.0, 4.0, 4.5]);
+        assert!((found - 3.0 / 22.5_f64.sqrt()).abs() < 1e-15, "{found}");
+    }
+
+    /// Any increasing function keeps it; a decreasing one turns it round; the interval holds it.
+    #[test]
+    fn only_the_order_counts() {
+        let mut random = Random::new(7);
+        let x: Vec<f64> = (0..40).map(|_| random.normal()).collect();
+        let y: Vec<f64> = x.iter().map(|x| x + random.normal()).collect();
+        let cubes: Vec<f64> = y.iter().map(|y| -y * y * y).collect();
+        let found = Correlation::new(&x, &y);
+        assert_eq!(spearman(&x, &cubes), -found.value);
+        assert!(found.interval[0] < found.value && found.value < found.interval[1], "{found:?}");
+    }
 }

@@ -75,3 +75,32 @@ impl Errors {
 /// The names of [`Errors::yardsticks`].
 pub(crate) const YARDSTICKS: [&str; 4] =
     ["translation", "rotation", "squared translation", "squared rotation"];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_errors_of_two_relations() {
+        let places = [[2.0, 3.0, 0.0], [2.5, 3.0, 0.25], [2.5, 4.0, 3.0]];
+        let relations = [
+            Relation { scans: [0, 1], way: [0.5, 0.75, 0.0] },
+            Relation { scans: [0, 2], way: [0.5, 1.0, -3.0] },
+        ];
+        let found = Errors::new(&places, &relations).unwrap();
+        assert_eq!(found.translations, [0.75, 0.0]);
+        let around = std::f64::consts::TAU - 6.0;
+        assert!((found.rotations[0] - 0.25).abs() < 1e-15 && (found.rotations[1] - around).abs() < 1e-15);
+        assert_eq!(found.yardsticks()[0], 0.375);
+        assert_eq!(found.yardsticks()[2], 0.28125);
+    }
+
+    #[test]
+    fn a_time_is_that_of_the_scan_within_a_millisecond() {
+        let times = [10.0, 10.5, 12.25];
+        assert_eq!(
+            [10.5005, 10.4995, 12.2515, 9.0].map(|time| scan_at(&times, time)),
+            [Some(1), Some(1), None, None]
+        );
+    }
+}

@@ -1,10 +1,10 @@
 //! The evidence as text, as JSON, and as plots.
 
-use crate::Row;
 use crate::measured::{DEFAULT, GAUSSIAN, MEAN_INFORMATION, MIDDLE, Measure, Model};
 use crate::perturbed::Kind;
 use crate::ranks::{Correlation, spearman};
 use crate::relations::YARDSTICKS;
+use crate::row::Row;
 use crate::rule::{Pairs, Seen, ordered, pairs, seen, to_corrected};
 use mean_information::scan::Difference;
 use mean_information_cli::Failure;
@@ -21,6 +21,8 @@ struct Column {
     odometry: f64,
     /// The correlations with the yardsticks; positive where the measure finds the trajectory with less error better.
     correlations: [Correlation; 4],
+    /// The correlations with the mean errors of translation and rotation, without jitter.
+    without_jitter: [f64; 2],
     /// The part of the pairs of known order that it orders so.
     ordered: f64,
     /// The standard deviation, and the greatest difference to the corrected one, that moves of the whole make.
@@ -50,19 +52,6 @@ pub(crate) struct Evidence {
     seen: Vec<Seen>,
 }
 
-impl Row {
-    /// A measure as a loss: the greater, the worse.
-    fn loss(&self, column: usize) -> f64 {
-        let measure = &self.measured.measures[column];
-        if measure.is_gain { -measure.value } else { measure.value }
-    }
-
-    /// Whether the trajectory is one of those that are ranked.
-    fn is_ranked(&self) -> bool {
-        self.made.kind != Kind::Moved
-    }
-}
-
 /// The columns of mean information by a model at a resolution.
 fn column_of(rows: &[Row], model: Model, resolution: f64) -> usize {
     let is = |measure: &Measure| {
@@ -80,6 +69,7 @@ impl Evidence {
         let yardstick =
             |rows: &[&Row], k: usize| rows.iter().map(|row| row.errors.yardsticks()[k]).collect::<Vec<_>>();
         let losses = |rows: &[&Row], k: usize| rows.iter().map(|row| row.loss(k)).collect::<Vec<_>>();
+        let calm: Vec<&Row> = ranked.iter().filter(|row| row.made.kind != Kind::Jitter).copied().collect();
         let columns = rows[0].measured.measures.iter().enumerate().map(|(k, measure)| {
             let own = losses(&ranked, k);
             let value = |row: &Row| row.measured.measures[k].value;
@@ -89,6 +79,7 @@ impl Evidence {
                 measure: measure.clone(),
                 odometry,
                 correlations: [0, 1, 2, 3].map(|y| Correlation::new(&own, &yardstick(&ranked, y))),
+                without_jitter: [0, 1].map(|y| spearman(&losses(&calm, k), &yardstick(&calm, y))),
                 ordered: ordered(&rows, &Kind::ERRORS, |row| row.loss(k)),
                 moves: spread(measure.value, &moved.collect::<Vec<_>>()),
             }
@@ -197,13 +188,15 @@ impl Report for Evidence {
                 YARDSTICKS[1],
                 "squared",
                 "squared rot.",
+                "no jitter",
                 "in order",
                 "corrected",
                 "odometry",
                 "moved: sd",
                 "most",
             ],
-            self.columns.iter().map(|Column { measure, odometry, correlations, ordered, moves }| {
+            self.columns.iter().map(|column| {
+                let Column { measure, odometry, correlations, without_jitter, ordered, moves } = column;
                 [
                     measure.name.to_owned(),
                     measure.by.clone(),
@@ -212,7 +205,8 @@ impl Report for Evidence {
                     with_interval(&correlations[1]),
                     format!("{:.3}", correlations[2].value),
                     format!("{:.3}", correlations[3].value),
-                    format!("{:.3}", ordered),
+                    without_jitter.map(|value| format!("{value:.3}")).join(", "),
+                    format!("{ordered:.3}"),
                     digits(measure.value),
                     digits(*odometry),
                     digits(moves[0]),
@@ -241,9 +235,9 @@ impl Report for Evidence {
                     format!("{:.3}", of.ordered[0]),
                     format!("{:.3}", of.ordered[1]),
                     format!("{:.3}", of.ordered[2]),
-                    size(seen.by_standard_error),
-                    size(seen.by_moves),
-                    size(seen.by_relations),
+                    size(seen.standard_error),
+                    size(seen.moves),
+                    size(seen.relations),
                 ]
             }),
         );
@@ -314,6 +308,7 @@ impl Report for Evidence {
                 ("resolution_m", Value::Given(column.measure.resolution)),
                 ("spearman", numbers(&values)),
                 ("intervals", numbers(&intervals)),
+                ("spearman_without_jitter", numbers(&column.without_jitter)),
                 ("ordered", numbers(&[column.ordered])),
                 ("moves", numbers(&column.moves)),
             ])

@@ -1,7 +1,7 @@
 //! What differences count: pairs of trajectories whose order is known or measured, and moves of a whole that change nothing.
 
-use crate::Row;
 use crate::perturbed::Kind;
+use crate::row::Row;
 use mean_information::Error;
 use mean_information::scan::Difference;
 use mean_information_cli::Failure;
@@ -80,12 +80,12 @@ pub(crate) fn ordered(rows: &[Row], kinds: &[Kind], loss: impl Fn(&Row) -> f64) 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Seen {
     /// By mean information: the difference to the corrected trajectory is below `-2` standard errors.
-    pub(crate) by_standard_error: Option<f64>,
+    pub(crate) standard_error: Option<f64>,
     /// By mean information: it is beyond what moves of the whole make.
-    pub(crate) by_moves: Option<f64>,
+    pub(crate) moves: Option<f64>,
     /// By the relations: the mean error of translation is above that of the corrected one by more than 2 standard errors of the
     /// mean of the differences.
-    pub(crate) by_relations: Option<f64>,
+    pub(crate) relations: Option<f64>,
 }
 
 /// Finds from which sizes on errors are seen. `reach` is what moves of the whole make of a mean information.
@@ -107,14 +107,12 @@ pub(crate) fn seen(rows: &[Row], reach: f64) -> Result<Vec<Seen>, Failure> {
         };
         let difference = |row: &Row| between(corrected, row);
         found.push(Seen {
-            by_standard_error: from(&|row| {
+            standard_error: from(&|row| {
                 let difference = difference(row)?;
                 Ok(difference.value() < -2.0 * difference.standard_error())
             })?,
-            by_moves: from(&|row| Ok(difference(row)?.value() < -reach))?,
-            by_relations: from(&|row| {
-                Ok(is_worse(&corrected.errors.translations, &row.errors.translations))
-            })?,
+            moves: from(&|row| Ok(difference(row)?.value() < -reach))?,
+            relations: from(&|row| Ok(is_worse(&corrected.errors.translations, &row.errors.translations)))?,
         });
     }
     Ok(found)

@@ -148,6 +148,28 @@ impl Evidence {
             ),
         ]
     }
+
+    /// Returns the table of the trajectories.
+    fn trajectories(&self) -> String {
+        let rows = table(
+            ["kind", "size", "seed", "m", "rad", "bits", "standard error"],
+            self.rows.iter().zip(&self.differences).map(|(row, difference)| {
+                let [translation, rotation, ..] = row.errors.yardsticks();
+                [
+                    row.made.kind.name().to_owned(),
+                    row.made.size.to_string(),
+                    row.made.seed.to_string(),
+                    format!("{translation:.4}"),
+                    format!("{rotation:.4}"),
+                    format!("{:.5}", difference.value()),
+                    format!("{:.5}", difference.standard_error()),
+                ]
+            }),
+        );
+        format!(
+            "\nTrajectories: mean errors; mean information at 10 cm less that of the corrected one\n{rows}"
+        )
+    }
 }
 
 /// The standard deviation of numbers, and the greatest of their distances from `value`.
@@ -259,23 +281,7 @@ impl Report for Evidence {
                 }),
             );
         }
-        text += "\nTrajectories: mean errors; mean information at 10 cm less that of the corrected one\n";
-        text += &table(
-            ["kind", "size", "seed", "m", "rad", "bits", "standard error"],
-            self.rows.iter().zip(&self.differences).map(|(row, difference)| {
-                let [translation, rotation, ..] = row.errors.yardsticks();
-                [
-                    row.made.kind.name().to_owned(),
-                    row.made.size.to_string(),
-                    row.made.seed.to_string(),
-                    format!("{translation:.4}"),
-                    format!("{rotation:.4}"),
-                    format!("{:.5}", difference.value()),
-                    format!("{:.5}", difference.standard_error()),
-                ]
-            }),
-        );
-        text
+        text + &self.trajectories()
     }
 
     fn rows(&self) -> Vec<Record> {

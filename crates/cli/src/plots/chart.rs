@@ -100,7 +100,7 @@ impl Colour {
 }
 
 impl Scale {
-    fn place(self, x: f64) -> f64 {
+    pub(super) fn place(self, x: f64) -> f64 {
         match self {
             Self::Linear => x,
             Self::Logarithmic => libm::log10(x),
@@ -108,7 +108,7 @@ impl Scale {
     }
 
     /// Returns the axis of numbers at these places, with a part of it free at its end.
-    fn axis(self, places: impl Iterator<Item = f64>, margin: f64, free: f64) -> Axis {
+    pub(super) fn axis(self, places: impl Iterator<Item = f64>, margin: f64, free: f64) -> Axis {
         let (low, high) =
             places.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
         let span = (high - low).max(1e-9);
@@ -120,7 +120,7 @@ impl Scale {
         Axis { range, ticks }
     }
 
-    fn label(self, place: f64) -> String {
+    pub(super) fn label(self, place: f64) -> String {
         match self {
             Self::Linear => short(place),
             Self::Logarithmic if place.fract() == 0.0 => power_of_ten(place as i32),

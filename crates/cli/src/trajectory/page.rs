@@ -1,6 +1,6 @@
 //! The page of a comparison: the answer, the table, the curves, the maps, and what the numbers mean.
 
-use super::comparison::Row;
+use super::row::Row;
 use super::pictures::Pictures;
 use crate::failure::Failure;
 use crate::one_line::one_line;

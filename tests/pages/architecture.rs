@@ -173,3 +173,12 @@ fn a_file_holds_one_idea() {
         }
     }
 }
+
+/// A module is where its name says: no attribute reaches above the folder of its file.
+#[test]
+fn no_module_is_taken_from_a_folder_above() {
+    for file in ["src", "crates", "tests", "benches", "examples", "fuzz"].into_iter().flat_map(sources) {
+        let above = |line: &&str| line.trim_start().starts_with("#[path") && line.contains("..");
+        assert_eq!(read(&file).lines().find(above), None, "{}", file.display());
+    }
+}

@@ -1,10 +1,8 @@
 //! `meaninfo emmi`: real particle sets against their expected values, MRPT's own average explained, and bad input.
 
-#[path = "../common/mod.rs"]
-mod common;
 mod refused;
 
-use common::*;
+use crate::common::*;
 use mean_information::expected::Hypotheses;
 use mean_information::map::encoding::MrptLogOdds;
 use mean_information::map::{Encoding, Grid};

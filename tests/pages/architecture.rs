@@ -157,7 +157,7 @@ fn home(name: &str) -> &str {
         "Real" => "real",
         "Tally" | "InformationSum" | "ExactSum" => "tally",
         "Failure" => "failure",
-        "Cells" => "cells",
+        "Cells" | "with_grid" => "cells",
         module => module,
     }
 }

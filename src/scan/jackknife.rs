@@ -85,8 +85,8 @@ impl Difference {
     }
 }
 
-/// Splits so many scans into `count` blocks of consecutive ones, their sizes differing by at most one; as many blocks as scans if
-/// there are fewer.
+/// Splits `scans` scans into `count` blocks of consecutive ones, their sizes differing by at most one; as many blocks as
+/// scans if there are fewer.
 ///
 /// ```
 /// use mean_information::scan::blocks;

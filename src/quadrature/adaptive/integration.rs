@@ -12,7 +12,7 @@ use crate::real::Real;
 pub(super) struct Integration<'a, T, F> {
     settings: &'a GaussKronrod<T>,
     f: F,
-    /// From the first point to the last.
+    /// The stretch from the first point to the last.
     whole: Stretch<T>,
     panels: Panels<T>,
     /// The places of the first and of the last panel.

@@ -63,7 +63,7 @@ impl Natural {
         self.add_limbs(at, &limbs::at_bit(n, part));
     }
 
-    /// Adds.
+    /// Returns the sum of two numbers.
     pub(crate) fn plus(mut self, other: &Self) -> Self {
         self.add_limbs(0, &other.limbs);
         self

@@ -15,7 +15,7 @@ pub enum Failure {
     File {
         /// The file.
         path: PathBuf,
-        /// The fault.
+        /// The fault in it.
         message: String,
     },
     /// Standard output cannot be written, for another reason than a reader who closed it.
@@ -28,7 +28,7 @@ pub enum Failure {
     Port {
         /// The command that starts it.
         command: String,
-        /// The fault.
+        /// The fault of its answers.
         message: String,
     },
     /// A picture cannot be drawn.
@@ -79,7 +79,9 @@ impl From<Error> for Failure {
             ErrorKind::TooLarge => {
                 format!("{}; raise it with --max-cells if the file is meant", error.message())
             }
-            ErrorKind::Options => "--unknown needs --mode probability; give both or neither".to_owned(),
+            ErrorKind::Options if error.place() == Some(&Place::Option("unknown")) => {
+                "--unknown needs --mode probability; give both or neither".to_owned()
+            }
             ErrorKind::OutOfRange if may_be_unknown(&error) => {
                 format!("{}, as does --unknown {}", error.message(), error.value().unwrap_or_default())
             }

@@ -90,6 +90,8 @@ pub enum Place {
     },
     /// An item of a list, from 0.
     Item(usize),
+    /// An option of the reader, by its name.
+    Option(&'static str),
 }
 
 impl Error {
@@ -253,7 +255,11 @@ impl From<mean_information::Error> for Error {
         {
             words = words.replacen(&value.to_string(), &short(value), 1);
         }
-        let mut refused = Self::new(ErrorKind::OutOfRange, words);
+        let kind = match error {
+            Refused::TooManyCells { .. } => ErrorKind::TooLarge,
+            _ => ErrorKind::OutOfRange,
+        };
+        let mut refused = Self::new(kind, words);
         match error {
             Refused::OutOfRange { value, allowed, .. } => refused.set(value, allowed, None),
             Refused::Item { index, value, allowed, .. } => {

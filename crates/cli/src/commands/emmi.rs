@@ -89,13 +89,13 @@ impl Arguments {
     }
 }
 
-/// What is computed of particles.
+/// The measures of the expected map and of the particles.
 struct Expected {
-    /// Of the expected map.
+    /// The measures of the expected map.
     measures: Measures,
-    /// `None` if nothing is observed in any particle of a weight above 0.
+    /// The mean of the particles; `None` if nothing is observed in any of a weight above 0.
     mean_of_particles: Option<Number>,
-    /// How many others of a weight above 0 there are in which nothing is observed.
+    /// The number of other particles of weight above 0 in which nothing is observed.
     unobserved: usize,
     particles: Vec<Measures>,
 }

@@ -46,8 +46,8 @@ impl Arguments {
 pub enum Command {
     /// The mean information of maps, and what it is made of.
     Map(map::Arguments),
-    /// The trajectory that makes the most consistent map of these scans: mean information and agreement of the map of each,
-    /// without ground truth.
+    /// The trajectory that makes the most consistent map of these scans: the mean information and the agreement of the map
+    /// of each, without ground truth.
     Trajectory(Box<trajectory::Arguments>),
     /// The mean information of a map against its resolution, by averaging cells 2 x 2, 4 x 4, ...; what lies beyond the
     /// map's edge is unknown.

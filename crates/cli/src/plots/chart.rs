@@ -31,7 +31,7 @@ pub struct Chart<const PANELS: usize> {
     /// The scale of that axis.
     pub scale: Scale,
     /// The panels, from top to bottom.
-    pub panels: [Panel; PANELS],
+    pub panels: [ChartPanel; PANELS],
 }
 
 /// The scale of an axis.
@@ -45,7 +45,7 @@ pub enum Scale {
 
 /// Curves with one vertical axis.
 #[derive(Debug)]
-pub struct Panel {
+pub struct ChartPanel {
     /// The title of the vertical axis.
     pub vertical: &'static str,
     /// The scale of the vertical axis.
@@ -151,7 +151,7 @@ impl<const PANELS: usize> Chart<PANELS> {
     fn draw_panel<B: DrawingBackend>(
         &self,
         area: &DrawingArea<B, Shift>,
-        panel: &Panel,
+        panel: &ChartPanel,
     ) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
         let all = || self.panels.iter().flat_map(|panel| &panel.curves).flat_map(|curve| &curve.points);
         let own = || panel.curves.iter().flat_map(|curve| &curve.points);

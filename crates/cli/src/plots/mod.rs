@@ -20,7 +20,7 @@ mod side_by_side;
 mod svg;
 mod sweep;
 
-pub use chart::{Chart, Colour, Curve, Panel, Scale};
+pub use chart::{Chart, ChartPanel, Colour, Curve, Scale};
 pub use conflict_map::{ConflictMap, conflict_scale};
 pub use convergence::ConvergencePlot;
 pub use drawing::{Drawing, Picture, require_png, title};

@@ -46,10 +46,12 @@
 //! | `text` | lines of text and their fields |
 //! | [`trajectory`] | [`Trajectory`]: poses by their times; TUM text |
 //! | [`scans`] | [`ScanLog`](scans::ScanLog): logs of range scans, CARMEN's |
+//! | [`bags`] | bags of messages, and the maps in them |
 //! | `read` | files by the ending of their names |
 //!
 //! The feature `clap` makes [`Semantics`], [`Mode`] and [`ArrayEncoding`] values of a command line's options.
 
+pub mod bags;
 mod cells;
 mod error;
 pub mod gridmap;

@@ -1,5 +1,6 @@
 //! Files by the ending of their names.
 
+use crate::bags::{self, MapTopic};
 use crate::cells::{Cells, Contents};
 use crate::error::{Error, ErrorKind};
 use crate::gridmap;
@@ -13,11 +14,15 @@ use crate::trajectory::{Trajectory, tum};
 use crate::warning::Warning;
 use std::path::Path;
 
-/// Reads the map at `path` on the disk: as [`read_map_from`].
+/// Reads the map at `path` on the disk: as [`read_map_from`]; of a bag, [its last](bags::last_map) of the only topic of
+/// maps that is no costmap.
 ///
 /// # Errors
 /// As [`read_map_from`].
 pub fn read_map(path: &Path, options: &Options) -> Result<Map, Error> {
+    if bags::is_bag(path) {
+        return last_map(path, options);
+    }
     read_map_from(&Disk, path, options)
 }
 
@@ -35,6 +40,9 @@ pub fn read_map_from(source: &impl Source, path: &Path, options: &Options) -> Re
 /// # Errors
 /// As [`read_map_from`].
 pub fn read_map_contents(path: &Path, options: &Options) -> Result<Map<Contents>, Error> {
+    if bags::is_bag(path) {
+        return last_map(path, options).map(Map::with);
+    }
     read_map_contents_from(&Disk, path, options)
 }
 
@@ -49,6 +57,12 @@ pub fn read_map_contents_from(
     options: &Options,
 ) -> Result<Map<Contents>, Error> {
     read_as(source, path, options).map_err(|error| error.in_file(path))
+}
+
+/// Reads the last map of a bag.
+fn last_map(path: &Path, options: &Options) -> Result<Map, Error> {
+    let topic = bags::map_topic(path, &MapTopic::default())?;
+    bags::last_map(path, &topic, options)
 }
 
 /// Reads a map whose cells go where `C` puts them.

@@ -14,7 +14,8 @@ use std::path::{Path, PathBuf};
 /// The arguments of `meaninfo map`.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// Maps: ROS .yaml (with its .pgm or .png), .npy, MRPT .gridmap or .gridmap.gz.
+    /// Maps: ROS .yaml (with its .pgm or .png), .npy, MRPT .gridmap or .gridmap.gz; or bags, .mcap, .db3, .bag or the
+    /// folder of one, whose last map is measured.
     #[arg(value_name = "FILE", required = true)]
     maps: Vec<PathBuf>,
     /// Draw the information of every cell of the one map given to this PNG file.

@@ -2,6 +2,8 @@
 
 mod arrays;
 mod bad;
+mod bag_messages;
+mod bags;
 mod errors;
 mod gridmaps;
 mod images;

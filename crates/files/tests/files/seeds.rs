@@ -7,12 +7,13 @@ use std::path::{Path, PathBuf};
 
 type Target = (&'static str, fn(&[u8]), fn() -> Vec<(&'static str, Vec<u8>)>);
 
-const TARGETS: [Target; 13] = [
+const TARGETS: [Target; 14] = [
     ("yaml", properties::yaml, yaml_seeds),
     ("pgm", properties::pgm, pgm_seeds),
     ("png", properties::png, png_seeds),
     ("npy", properties::npy, npy_seeds),
     ("gridmap", properties::gridmap, gridmap_seeds),
+    ("bag", properties::bag, bag_seeds),
     ("carmen_log", properties::carmen_log, carmen_log_seeds),
     ("trajectory", properties::trajectory, trajectory_seeds),
     ("grid", properties::grid, grid_seeds),
@@ -132,6 +133,18 @@ fn gridmap_seeds() -> Vec<(&'static str, Vec<u8>)> {
         ("zipped", gzip(&small)),
         ("cut", small[..57].to_vec()),
     ]
+}
+
+fn bag_seeds() -> Vec<(&'static str, Vec<u8>)> {
+    let kinds = [
+        ("plain_1", "maps_none.bag"),
+        ("bz2", "maps_bz2.bag"),
+        ("lz4_1", "maps_lz4.bag"),
+        ("plain_2", "maps_mcap/maps_mcap.mcap"),
+        ("zstd", "maps_mcap_zstd/maps_mcap_zstd.mcap"),
+        ("lz4_2", "maps_mcap_lz4.mcap"),
+    ];
+    kinds.map(|(name, file)| (name, fs::read(crate::bags::bag(file)).unwrap())).to_vec()
 }
 
 fn carmen_log_seeds() -> Vec<(&'static str, Vec<u8>)> {

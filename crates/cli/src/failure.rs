@@ -65,6 +65,9 @@ impl From<Error> for Failure {
                 format!("{}; raise it with --max-cells if the file is meant", error.message())
             }
             ErrorKind::Options => "--unknown needs --mode probability; give both or neither".to_owned(),
+            ErrorKind::Choice => {
+                format!("{}; `meaninfo bag --topic` names one, --force admits costmaps", error.message())
+            }
             _ => error.message().to_owned(),
         };
         Self::file(error.file().unwrap_or(Path::new("")), message)

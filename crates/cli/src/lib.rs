@@ -17,8 +17,9 @@
 //! | [`measures`] | what is measured of a map |
 //! | [`simulation`] | rooms, a robot in them, and the map it makes |
 //! | [`sweep`] | the measures against the size of cells |
+//! | [`series`] | the maps of a bag, measured one after the other |
 //! | [`convergence`] | grids of a circular room against their limit |
-//! | [`plots`] | pictures of maps, curves, sweeps and convergence |
+//! | [`plots`] | pictures of maps, curves, sweeps, bags and convergence |
 //! | [`paper`] | the figures and the claims of the report |
 //! | [`commands`] | the arguments, and what they ask for |
 
@@ -37,6 +38,7 @@ pub mod port;
 mod progress;
 pub mod protocol;
 pub mod reading;
+pub mod series;
 pub mod simulation;
 pub mod sweep;
 

@@ -1,5 +1,6 @@
 //! The arguments and commands of `meaninfo`, one command per file. Each computes everything before it writes anything.
 
+mod bag;
 mod check;
 mod converge;
 mod emmi;
@@ -45,6 +46,8 @@ impl Arguments {
 pub enum Command {
     /// The mean information of maps, and what it is made of.
     Map(map::Arguments),
+    /// The mean information of the maps of a bag, one after the other as they were recorded.
+    Bag(bag::Arguments),
     /// The mean information of a map against its resolution, by averaging cells 2 x 2, 4 x 4, ...; what lies beyond the
     /// map's edge is unknown.
     Sweep(sweep::Arguments),
@@ -73,6 +76,7 @@ impl Command {
     pub fn run(&self) -> Result<Status, Failure> {
         match self {
             Self::Map(arguments) => arguments.run(),
+            Self::Bag(arguments) => arguments.run(),
             Self::Sweep(arguments) => arguments.run(),
             Self::Limit(arguments) => arguments.run(),
             Self::Converge(arguments) => arguments.run(),

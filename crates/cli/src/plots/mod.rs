@@ -12,6 +12,7 @@ mod frame;
 mod heat_map;
 mod panels;
 mod scale;
+mod series;
 mod svg;
 mod sweep;
 
@@ -20,5 +21,6 @@ pub use convergence::ConvergencePlot;
 pub use drawing::{Drawing, Picture, require_png, title};
 pub use heat_map::HeatMap;
 pub use panels::{MapPanel, panels};
+pub use series::SeriesPlot;
 pub use svg::{Sheet, Svg};
 pub use sweep::SweepPlot;

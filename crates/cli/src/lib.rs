@@ -15,6 +15,7 @@
 //! | [`output`] | numbers, tables, JSON and CSV, and where they go |
 //! | [`check`] | ports against the vectors |
 //! | [`measures`] | what is measured of a map |
+//! | `submaps` | the submaps of saved states, apart or together |
 //! | [`simulation`] | rooms, a robot in them, and the map it makes |
 //! | [`sweep`] | the measures against the size of cells |
 //! | [`series`] | the maps of a bag, measured one after the other |
@@ -40,6 +41,7 @@ pub mod protocol;
 pub mod reading;
 pub mod series;
 pub mod simulation;
+mod submaps;
 pub mod sweep;
 
 pub use failure::Failure;

@@ -43,6 +43,7 @@
 //! | [`ros`] | ROS maps: a yaml file that describes an image |
 //! | [`npy`] | NumPy's arrays |
 //! | [`gridmap`] | MRPT's grid maps |
+//! | [`pbstream`] | Cartographer's saved states |
 //! | `text` | lines of text and their fields |
 //! | [`trajectory`] | [`Trajectory`]: poses by their times; TUM text |
 //! | [`scans`] | [`ScanLog`](scans::ScanLog): logs of range scans, CARMEN's |
@@ -59,6 +60,7 @@ mod image;
 mod map;
 pub mod npy;
 mod options;
+pub mod pbstream;
 mod read;
 pub mod ros;
 pub mod scans;
@@ -74,7 +76,8 @@ pub use map::Map;
 pub use options::{ArrayEncoding, MAX_CELLS, MAX_COUNTED, Mode, Options, Semantics};
 pub use read::{
     read_map, read_map_contents, read_map_contents_from, read_map_from, read_particles, read_particles_from,
-    read_scans, read_scans_from, read_trajectory, read_trajectory_from, read_weights, read_weights_from,
+    read_scans, read_scans_from, read_submaps, read_submaps_from, read_trajectory, read_trajectory_from,
+    read_weights, read_weights_from,
 };
 pub use source::{Disk, Memory, Opened, Source};
 pub use trajectory::{Association, Trajectory, tum};

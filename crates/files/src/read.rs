@@ -7,6 +7,7 @@ use crate::gridmap;
 use crate::map::Map;
 use crate::npy::{self, MapsVisitor};
 use crate::options::{Mode, Options};
+use crate::pbstream::{self, Submap};
 use crate::ros::{self, Sink};
 use crate::scans::{ScanLog, ScanOptions};
 use crate::source::{Disk, ENDINGS, Opened, Source};
@@ -84,6 +85,9 @@ fn read_as<C: From<Cells> + Sink>(
         npy::read(input, length, options)?.with()
     } else if is(&[".gridmap", ".gridmap.gz"]) {
         gridmap::read(input, options)?.with()
+    } else if is(&[".pbstream"]) {
+        let message = "is a saved state of Cartographer, whose submaps are several grids, not one";
+        return Err(Error::new(ErrorKind::Unsupported, message));
     } else if is(&[".pgm", ".png"]) {
         let message = "is only the image of a ROS map; give the yaml file that describes it";
         return Err(Error::new(ErrorKind::Unsupported, message));
@@ -93,6 +97,23 @@ fn read_as<C: From<Cells> + Sink>(
     };
     map.files.push(path.to_owned());
     Ok(map)
+}
+
+/// Reads the submaps of Cartographer's saved state at `path` on the disk: as [`read_submaps_from`].
+///
+/// # Errors
+/// As [`read_submaps_from`].
+pub fn read_submaps(path: &Path, options: &Options) -> Result<Vec<Submap>, Error> {
+    read_submaps_from(&Disk, path, options)
+}
+
+/// Reads the submaps of Cartographer's saved state at `path` of `source`, whatever the file's name.
+///
+/// # Errors
+/// An [`Error`] naming the file: as [`pbstream::read`].
+pub fn read_submaps_from(source: &impl Source, path: &Path, options: &Options) -> Result<Vec<Submap>, Error> {
+    let read = |file: Opened<_>| pbstream::read(file.input, file.length, options);
+    source.open(path).and_then(read).map_err(|error| error.in_file(path))
 }
 
 /// Reads the maps of a filter's particles from the `.npy` array at `path` on the disk, and has `visitor` visit them.

@@ -95,6 +95,18 @@ pub enum Warning {
         /// The number of updates.
         count: u64,
     },
+    /// The program that made the map keeps its probabilities within an interval.
+    Clamped {
+        /// The least probability.
+        least: f32,
+        /// The greatest probability.
+        greatest: f32,
+    },
+    /// Submaps are counted together, and a place that lies in several counts in each.
+    SubmapsTogether {
+        /// The number of submaps.
+        count: usize,
+    },
     /// Bytes 127 and 128 of an MRPT map before version 3 are read as unknown, as MRPT does.
     HalvesReadAsUnknown {
         /// The number of cells.
@@ -169,6 +181,12 @@ impl fmt::Display for Warning {
             }
             Self::UpdatesBeforeMap { count } => {
                 write!(f, "{count} updates come before the first map and are passed over")
+            }
+            Self::Clamped { least, greatest } => {
+                write!(f, "probabilities are clamped to {least:.3} to {greatest:.3} by who made them")
+            }
+            Self::SubmapsTogether { count } => {
+                write!(f, "{count} submaps counted together: a place that lies in several counts in each")
             }
             Self::HalvesReadAsUnknown { count, version } => write!(
                 f,

@@ -7,6 +7,7 @@ use crate::output::{Files, Number, Record, Report, Value, Writing, short, table,
 use crate::plots::{self, HeatMap};
 use crate::progress::Progress;
 use crate::reading::{Reading, in_words};
+use crate::submaps;
 use clap::Args;
 use mean_information_files::{Map, read_map, read_map_contents};
 use std::path::{Path, PathBuf};
@@ -15,12 +16,15 @@ use std::path::{Path, PathBuf};
 #[derive(Args, Debug)]
 pub struct Arguments {
     /// Maps: ROS .yaml (with its .pgm or .png), .npy, MRPT .gridmap or .gridmap.gz; or bags, .mcap, .db3, .bag or the
-    /// folder of one, whose last map is measured.
+    /// folder of one, whose last map is measured; or Cartographer's saved states, .pbstream.
     #[arg(value_name = "FILE", required = true)]
     maps: Vec<PathBuf>,
     /// Draw the information of every cell of the one map given to this PNG file.
     #[arg(long, value_name = "FILE.png")]
     heat_map: Option<PathBuf>,
+    /// Give each submap of a saved state a row, in place of one for all.
+    #[arg(long)]
+    submaps: bool,
     #[command(flatten)]
     reading: Reading,
     #[command(flatten)]
@@ -45,6 +49,15 @@ impl Arguments {
         for path in &self.maps {
             progress.begin(&path.display().to_string());
             // Only a picture needs the cells themselves.
+            if self.heat_map.is_none() && submaps::is_state(path) {
+                for (name, map) in submaps::read(path, self.submaps, &options)? {
+                    let measures = Measures::of_counts(&map.cells);
+                    let row = MeasuredMap::new(path, map, measures, &mut files);
+                    measured.push(MeasuredMap { name, is_rectangle: self.submaps, ..row });
+                }
+                progress.done();
+                continue;
+            }
             let row = if let Some(picture) = &self.heat_map {
                 let map = read_map(path, &options)?;
                 let measures = Measures::of(&map.cells);
@@ -77,6 +90,8 @@ struct MeasuredMap {
     name: String,
     resolution: Option<f64>,
     measures: Measures,
+    /// Whether its cells lie in one rectangle: submaps together do not.
+    is_rectangle: bool,
     warnings: Vec<String>,
 }
 
@@ -85,12 +100,18 @@ impl MeasuredMap {
         files.read(map.files);
         let mut warnings = in_words(&map.warnings);
         warnings.extend(measures.not_meaningful.map(|why| why.warning().to_owned()));
-        Self { name: path.display().to_string(), resolution: map.resolution, measures, warnings }
+        let (name, resolution) = (path.display().to_string(), map.resolution);
+        Self { name, resolution, measures, is_rectangle: true, warnings }
     }
 
     fn record(&self) -> Record {
         let mut entries = vec![("map", Value::Text(self.name.clone()))];
         entries.extend(self.measures.entries(self.resolution));
+        if !self.is_rectangle {
+            for (_, size) in entries.iter_mut().filter(|(key, _)| matches!(*key, "width" | "height")) {
+                *size = Value::Given(None);
+            }
+        }
         entries.push(("meaningful", Value::Flag(self.measures.not_meaningful.is_none())));
         entries.push(("warnings", Value::Texts(self.warnings.clone())));
         Record(entries)
@@ -103,7 +124,8 @@ impl MeasuredMap {
         let side = self.resolution.map(|side| format!("\nof {} m", Number::given(side)));
         [
             wrapped(&self.name),
-            format!("{} × {}{}", m.width, m.height, side.unwrap_or_default()),
+            if self.is_rectangle { format!("{} × {}", m.width, m.height) } else { "submaps".to_owned() }
+                + &side.unwrap_or_default(),
             number
                 + &m.not_meaningful
                     .map(|why| format!("\nnot meaningful:\n{}", why.reason()))

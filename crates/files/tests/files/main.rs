@@ -7,6 +7,7 @@ mod bags;
 mod errors;
 mod gridmaps;
 mod images;
+mod pbstreams;
 mod png_kinds;
 mod real;
 mod rules;

@@ -1,7 +1,7 @@
-//! Bags: each is read or refused, and a cut one is read up to the cut.
+//! Bags and saved states: each is read or refused, and a bag that was cut is read up to the cut.
 
 use mean_information_files::bags::{MapSeries, Message, Topic, Visitor, read_stream};
-use mean_information_files::{Error, Options};
+use mean_information_files::{Error, Options, pbstream as states};
 
 /// Small, so that a claim is soon above it.
 const MAX_CELLS: u64 = 1 << 16;
@@ -52,5 +52,21 @@ pub fn bag(bytes: &[u8]) {
     });
     if let Err(error) = read_stream(bytes, bytes.len() as u64, &options(), &mut series) {
         assert!(!error.to_string().is_empty());
+    }
+}
+
+/// Reads a saved state: it is refused, or every cell of its submaps is counted once and is a probability.
+pub fn pbstream(bytes: &[u8]) {
+    match states::read(bytes, bytes.len() as u64, &options()) {
+        Ok(submaps) => {
+            for submap in submaps {
+                let counts = submap.counts;
+                let cells: u64 = counts.values.iter().map(|&(_, count)| count).sum();
+                assert!(cells <= MAX_CELLS && cells == (counts.width * counts.height) as u64);
+                assert!(counts.values.iter().all(|(p, _)| (0.0..=1.0).contains(p)));
+                assert!(submap.resolution > 0.0 && submap.clamp[0] < submap.clamp[1]);
+            }
+        }
+        Err(error) => assert!(!error.to_string().is_empty()),
     }
 }

@@ -16,7 +16,7 @@ mod scans;
 mod tally;
 
 #[cfg(feature = "formats")]
-pub use bags::bag;
+pub use bags::{bag, pbstream};
 pub use builders::{expected, scan};
 #[cfg(feature = "formats")]
 pub use formats::{gridmap, npy, pgm, png, stack, yaml};

@@ -85,6 +85,8 @@ fn read_as<C: From<Cells> + Sink>(
         npy::read(input, length, options)?.with()
     } else if is(&[".gridmap", ".gridmap.gz"]) {
         gridmap::read(input, options)?.with()
+    } else if is(&[".mcap", ".db3", ".bag"]) {
+        return Err(Error::new(ErrorKind::Unsupported, "is a bag, whose last map is read from a disk only"));
     } else if is(&[".pbstream"]) {
         let message = "is a saved state of Cartographer, whose submaps are several grids, not one";
         return Err(Error::new(ErrorKind::Unsupported, message));

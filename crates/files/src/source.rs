@@ -8,7 +8,7 @@ use std::io::{self, BufRead, BufReader, Cursor, Seek};
 use std::path::{Path, PathBuf};
 
 /// The endings of map files, for messages.
-pub(crate) const ENDINGS: &str = ".yaml, .yml, .npy, .gridmap and .gridmap.gz";
+pub(crate) const ENDINGS: &str = ".yaml, .yml, .npy, .gridmap, .gridmap.gz, .mcap, .db3, .bag and .pbstream";
 
 /// A place that files are opened from by their names: the yaml file of a ROS map names another one.
 pub trait Source {

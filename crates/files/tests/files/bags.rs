@@ -3,7 +3,9 @@
 use mean_information_files::bags::{
     Change, MapSeries, MapTopic, Snapshot, Visitor, last_map, map_topic, read_bag, read_stream,
 };
-use mean_information_files::{Cells, Error, ErrorKind, Options, Place, Warning, read_map};
+use mean_information_files::{
+    Cells, Error, ErrorKind, Memory, Options, Place, Warning, read_map, read_map_from,
+};
 use mean_information_test_support::formats::Folder;
 use std::collections::BTreeMap;
 use std::fs;
@@ -197,4 +199,13 @@ fn other_files_are_no_databases() {
     let folder = Folder::new();
     let path = folder.write("run.db3", b"SQLite format 3\0 but no more");
     assert_eq!(read_map(&path, &Options::default()).unwrap_err().kind(), ErrorKind::Format);
+}
+
+#[test]
+fn a_bag_is_read_from_a_disk_only() {
+    let mut files = Memory::new();
+    files.add("run.mcap", fs::read(bag("maps_mcap_lz4.mcap")).unwrap());
+    let error = read_map_from(&files, Path::new("run.mcap"), &Options::default()).unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::Unsupported);
+    assert_eq!(error.to_string(), "run.mcap: is a bag, whose last map is read from a disk only");
 }

@@ -82,6 +82,8 @@
 //! * `rayon`: maps, rooms, scans' maps and expected maps are measured by several threads, to the same bits
 //!   (`Grid::par_tally` and others).
 //! * `vectors`: arguments with their exact results for every operation, as text, to check an implementation against.
+//! * `approx`: maps, tallies and estimates can be compared within a bound, by the traits of the crate `approx`:
+//!   `assert_ulps_eq!(ours, theirs, max_ulps = 1)`.
 //! * `serde`: tallies and histograms can be written and read, so that parts of a map measured on several machines merge to
 //!   the same bits.
 //!
@@ -93,6 +95,8 @@ extern crate alloc;
 #[cfg(feature = "std")]
 extern crate std;
 
+#[cfg(feature = "approx")]
+mod approx;
 pub mod book;
 pub mod cell;
 pub mod elementary;

@@ -12,10 +12,9 @@ Exit status 0: none failed; 1: some did; 2: bad usage, or a port that does not a
 import argparse
 import fnmatch
 import json
-import math
 import pathlib
+import re
 import runpy
-import struct
 import subprocess
 import sys
 from fractions import Fraction
@@ -25,20 +24,45 @@ FORMATS = {"f32": (24, -149), "f64": (53, -1074)}  # digits, exponent of the sma
 SHOWN = 3
 
 
+HEXADECIMAL = re.compile(r"([+-]?)0x([0-9a-f]*)(?:\.([0-9a-f]*))?(?:p([+-]?[0-9]+))?", re.IGNORECASE)
+
+
+def read(text):
+    """Whether a hexadecimal float has a minus sign, and its magnitude, exactly; ValueError of anything else."""
+    found = HEXADECIMAL.fullmatch(text) if isinstance(text, str) and len(text) < 10_000 else None
+    if not found:
+        raise ValueError(text)
+    sign, whole, fraction, exponent = found[1], found[2], found[3] or "", int(found[4] or 0)
+    if not whole + fraction or abs(exponent) > 100_000:
+        raise ValueError(text)
+    return sign == "-", int(whole + fraction, 16) * Fraction(2) ** (exponent - 4 * len(fraction))
+
+
 def parts(x, precision, least):
-    """x = m 2^e of x >= 0, m below 2^precision and e as small as can be: 2^e is the ulp."""
-    e = max(math.frexp(x)[1] - precision, least) if x else least
-    return int(Fraction(x) / Fraction(2) ** e), e
+    """x = m 2^e of x >= 0, m below 2^precision and e as small as can be: 2^e is the ulp. ValueError if m is no integer,
+    or e too large: then x is no float of the format."""
+    e = least
+    if x:
+        # The bit length of the quotient is off by one at most.
+        e = max(x.numerator.bit_length() - x.denominator.bit_length() - precision, least)
+        e += x >= Fraction(2) ** (e + precision)
+    m = x / Fraction(2) ** e
+    if m.denominator != 1 or e > 3 - 2 * precision - least:
+        raise ValueError(x)
+    return int(m), e
 
 
-def is_near(x, lo, hi, tolerance, precision, least):
-    """Whether x is the nearest float of all between lo and hi (tolerance 1/2), or within so many ulp of one."""
-    if not math.isfinite(x) or math.copysign(1, x) < 0:
-        return False
+def is_near(negative, x, lo, hi, tolerance, precision, least):
+    """Whether ±x is the nearest float of all between lo and hi (tolerance 1/2), or within so many ulp of one."""
     m, e = parts(x, precision, least)
     ulp = Fraction(2) ** e
     if tolerance != Fraction(1, 2):
-        return m * ulp - tolerance * ulp <= hi and lo <= m * ulp + tolerance * ulp
+        signed = -x if negative else x
+        return signed - tolerance * ulp <= hi and lo <= signed + tolerance * ulp
+    if negative:
+        if not m:
+            return False  # a zero is +0
+        lo, hi = -hi, -lo
     below = ulp / 4 if m == 2 ** (precision - 1) and e > least else ulp / 2  # half the spacing below a power of two
     inside = (lambda a, b: a <= b) if m % 2 == 0 else (lambda a, b: a < b)
     return inside(m * ulp - below, lo) and inside(hi, m * ulp + ulp / 2)
@@ -57,14 +81,17 @@ def is_right(answer, test, tolerance):
                 return True
         else:
             try:
-                x = float.fromhex(answer.get("result"))
-                if test["format"] == "f32" and struct.unpack("f", struct.pack("f", x))[0] != x:
-                    continue  # no number of that format
-            except (TypeError, ValueError, OverflowError):
-                continue
-            if is_near(x, Fraction(want["lo"]), Fraction(want["hi"]), tolerance, precision, least):
-                return True
+                x = read(answer.get("result"))
+                if is_near(*x, Fraction(want["lo"]), Fraction(want["hi"]), tolerance, precision, least):
+                    return True
+            except ValueError:
+                continue  # no number of that format
     return False
+
+
+def stop(reason):
+    print(f"judge.py: {reason}", file=sys.stderr)
+    sys.exit(2)
 
 
 class Port:
@@ -73,16 +100,20 @@ class Port:
     def __init__(self, command):
         self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         self.welcome = self.ask({"cmd": "start", "protocol": 1})
+        if not all(isinstance(self.welcome.get(name), list) for name in ("ops", "formats")):
+            stop(f"no answer to the start with lists of ops and formats: {json.dumps(self.welcome)[:200]}")
         self.seq = 0
 
     def ask(self, request):
         try:
             self.process.stdin.write(json.dumps(request) + "\n")
             self.process.stdin.flush()
-            return json.loads(self.process.stdout.readline())
+            answer = json.loads(self.process.stdout.readline())
         except (OSError, ValueError) as error:
-            print(f"judge.py: no answer ({error}) to {json.dumps(request)[:200]}", file=sys.stderr)
-            sys.exit(2)
+            stop(f"no answer ({error}) to {json.dumps(request)[:200]}")
+        if not isinstance(answer, dict):
+            stop(f"no answer, but {json.dumps(answer)[:200]}, to {json.dumps(request)[:200]}")
+        return answer
 
     def declares(self, op, test):
         return op in self.welcome["ops"] and test["format"] in self.welcome["formats"]
@@ -104,16 +135,20 @@ class Function:
         return test["format"] == "f64"
 
     def answer(self, op, test):
-        read = lambda x: [read(y) for y in x] if isinstance(x, list) else float.fromhex(x)
+        floats = lambda x: [floats(y) for y in x] if isinstance(x, list) else float.fromhex(x)
         try:
-            result = self.call(*(read(test["args"][a["name"]]) for a in self.arguments[op]["arguments"]))
+            result = self.call(*(floats(test["args"][a["name"]]) for a in self.arguments[op]["arguments"]))
         except ValueError:
             return {"error": "domain"}
         except ArithmeticError as error:
             return {"error": repr(error)}
-        if result != result:
-            return {"error": "domain"}
-        return {"result": result if isinstance(result, int) else float(result).hex()}
+        if isinstance(result, int):
+            return {"result": result}
+        try:
+            result = float(result)
+        except (TypeError, ValueError):
+            stop(f"{test['id']}: no number, but {str(result)[:90]}")
+        return {"result": result.hex()} if result == result else {"error": "domain"}
 
 
 def main():

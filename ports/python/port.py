@@ -440,7 +440,7 @@ def read(argument):
 
 def answer(request):
     if request["cmd"] == "start":
-        return {"protocol": 1, "name": "mean_information.py", "language": "Python", "version": "1",
+        return {"protocol": 1, "name": "port.py", "language": "Python", "version": "1",
                 "formats": list(FORMATS), "ops": list(OPERATIONS)}
     if request["op"] not in OPERATIONS or request["format"] not in FORMATS:
         return {"seq": request["seq"], "error": "unknown-operation"}

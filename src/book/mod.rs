@@ -43,6 +43,7 @@ chapters! {
     guarantees;
     operations;
     porting;
+    files;
     paper;
     architecture;
 }

@@ -21,9 +21,9 @@ use num_traits::{One, Zero};
 /// together. What is integrated is the entropy in the local coordinate `t` of each piece, with panels that shrink
 /// towards its start: a peak there is seen if the smallest panel is no wider than it. Where every value is 0, though
 /// the range of the entropy over the piece is not, the piece is integrated again between points that crowd where ranges
-/// are not 0: so a peak of any relative width is seen anywhere, if beside it the entropy is 0 to the floats. A narrow
-/// peak elsewhere, beside which there is entropy, can be missed, and then the claim is false: let a piece start there.
-/// A piece whose range, an interval, shows that it matters less than the tolerance is left at that.
+/// are not 0: so a peak of any relative width is seen anywhere, if it is the only thing in its piece. A narrow peak
+/// elsewhere, with entropy or another peak in the same piece, can be missed, and then the claim is false: let a piece
+/// start there. A piece whose range, an interval, shows that it matters less than the tolerance is left at that.
 ///
 /// **Error**: [`Estimate::error`], an estimate: the sum of those of the pieces ([`GaussKronrod`]), and the rounding of the last steps.
 /// Measured: never below the true error in 10 000 random rooms, both weights and formats.
@@ -31,7 +31,9 @@ use num_traits::{One, Zero};
 /// A room takes at most 515 evaluations at a relative tolerance of `1e-12` in `f64`, by any rule and for any `z / σ`
 /// from `1e-6` to `1e9` (measured: [`quadrature`](crate::book::quadrature)).
 ///
-/// Special case: 0, exactly, for a model that observes nothing.
+/// Special cases: 0, exactly, for a model that observes nothing. [`Status::AllZero`] if the values of a piece were 0
+/// again between the crowding points, or no evaluations were left for these: the bound on the piece by its range is then
+/// part of the error.
 ///
 /// # Errors
 /// [`Error::OutOfRange`] as [`GaussKronrod::integrate`]; or if `z / σ` is so large that a thousand times it overflows.

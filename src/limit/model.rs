@@ -11,8 +11,8 @@ use crate::sensor::{GaussianSensor, SteppedSensor};
 /// A stretch of `t` from `start` to `start + length`, over which the entropy is smooth but perhaps at its start.
 ///
 /// A negative length runs towards smaller `t`. A singularity, or a bump much narrower than the piece, may lie at the
-/// start: the adaptive integral begins with panels that shrink towards it. Elsewhere it sees a narrow bump only if the
-/// entropy beside it is 0 to the floats.
+/// start: the adaptive integral begins with panels that shrink towards it. Elsewhere it sees a narrow bump only if that
+/// is the only thing in the piece: beside it the entropy is 0 to the floats.
 #[derive(Clone, Debug)]
 pub struct Piece<S> {
     /// The start.

@@ -140,6 +140,7 @@ fn is_above(m: u64, n: i32, midpoint: Midpoint) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use approx::abs_diff_eq;
     use proptest::prelude::*;
 
     fn occupancy() -> impl Strategy<Value = f64> {
@@ -218,7 +219,7 @@ mod tests {
             let l = log_odds_from_occupancy(p);
             let fixed = fixed_log_odds(p);
             let rounded: f64 = round_log_odds(fixed);
-            prop_assert!((rounded - l).abs() <= l.abs() * f64::EPSILON + f64::from_parts(1, -76));
+            prop_assert!(abs_diff_eq!(rounded, l, epsilon = l.abs() * f64::EPSILON + f64::from_parts(1, -76)));
             prop_assert_eq!(fixed > 0, p > 0.5);
             prop_assert!(fixed != 0);
         }

@@ -117,6 +117,7 @@ fn quotient(n: u128, e: i32, divisor: u64) -> Option<u128> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use approx::abs_diff_eq;
     use num_bigint::BigInt;
     use proptest::prelude::*;
 
@@ -158,7 +159,7 @@ mod tests {
             for (k, unit) in [direction.cos(), direction.sin()].into_iter().enumerate() {
                 let expected = distance * unit / resolution * f64::from_parts(1, FRACTION as i32);
                 let moved = (end[k] - start[k]) as f64;
-                prop_assert!((moved - expected).abs() <= 0.5 + expected.abs() * 4.0 * f64::EPSILON);
+                prop_assert!(abs_diff_eq!(moved, expected, epsilon = 0.5 + expected.abs() * 4.0 * f64::EPSILON));
             }
         }
 

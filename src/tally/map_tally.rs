@@ -149,9 +149,9 @@ impl<T: Real> Tally<T> {
 
     /// Returns `H(m)`, Eq. 2: the entropy of all cells in bits, with 1 bit for each unknown cell.
     ///
-    /// The exact sum of the correctly rounded entropies of the cells, rounded once to nearest: within 1.5 ulp of
-    /// the sum of the exact entropies, unless that is below the normal numbers, where half a unit of the smallest
-    /// number for each cell is added.
+    /// The exact sum of the correctly rounded entropies of the cells, rounded once to nearest: within 1.5 ulp of the
+    /// exact entropy of the cells given (proved, [`sums`](crate::book::sums), "The results"). If entropies of cells are
+    /// below the normal numbers, half a unit of the smallest number more for each of these.
     pub fn entropy(&self) -> T {
         // One rounding, of the exact sum.
         self.entropy.value()

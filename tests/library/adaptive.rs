@@ -38,9 +38,16 @@ fn no_claim_is_below_the_truth<T: Real + num_traits::Float>(tolerances: &[f64], 
                 assert!(case.error(value.widen()) <= error.widen(), "{context}");
                 let infinite = error.widen().is_infinite();
                 assert!(!infinite || matches!(status, Status::Unresolved { .. }), "{context}");
-                // Points that nobody named, away from 0, which floats do not resolve to 13 digits.
+                // Points away from 0, which floats do not resolve: those that nobody named, to 13 digits; 1, for a power of
+                // -0.9, to two, since 0.03 of the integral lie between 1 and the next float.
+                let steep =
+                    case.family == "end-power" && case.parameters()[0] < -0.75 && case.points[0] == 1.0;
                 assert!(
-                    !infinite || T::FORMAT == "f32" || ["jump", "gsl-454"].contains(&case.family),
+                    !infinite
+                        || T::FORMAT == "f32"
+                        || case.family.contains("jump")
+                        || case.family == "gsl-454"
+                        || steep,
                     "{context}"
                 );
                 if status == Status::Converged {
@@ -66,7 +73,8 @@ fn no_claim_is_below_the_truth_f32() {
 /// Without a break point only a peak can be missed: kinks, jumps, cusps and powers are seen wherever they are.
 #[test]
 fn nothing_but_a_peak_needs_a_name() {
-    for case in cases().iter().filter(|case| !case.family.starts_with("gaussian")) {
+    let is_peak = |case: &&Case| ["gaussian", "peak"].iter().any(|name| case.family.starts_with(name));
+    for case in cases().iter().filter(|case| !is_peak(case)) {
         let [from, to] = [case.points[0], case.points[case.points.len() - 1]];
         for rule in Rule::ALL {
             let settings = GaussKronrod::new().rule(rule).relative(1e-8).limit(20_000);

@@ -1,6 +1,7 @@
 //! The proved bounds between grids and their limits, on rooms of every kind.
 
 use super::common::power;
+use approx::abs_diff_eq;
 use mean_information::cell::entropy;
 use mean_information::elementary::{exp, ln, sqrt};
 use mean_information::limit::{Weight, bounds, closed_form};
@@ -108,9 +109,9 @@ proptest! {
         let sensor = GaussianSensor::new(z, z / alpha)?;
         let h = z * (1.0 + B / alpha) / 1e5;
         let [coarse, fine] = [h, h / 8.0].map(|h| bounds::polar(&sensor, h).unwrap());
-        prop_assert!((coarse / fine - 8.0).abs() < 0.1, "{}", coarse / fine);
+        prop_assert!(abs_diff_eq!(coarse / fine, 8.0, epsilon = 0.1), "{}", coarse / fine);
         let [coarse, fine] = [h, h / 8.0].map(|h| bounds::cartesian(&sensor, h).unwrap());
-        prop_assert!((coarse / fine - 16.0).abs() < 0.1, "{}", coarse / fine);
+        prop_assert!(abs_diff_eq!(coarse / fine, 16.0, epsilon = 0.1), "{}", coarse / fine);
     }
 
     #[test]

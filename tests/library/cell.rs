@@ -1,6 +1,7 @@
 //! One cell: its bounds, symmetries and special cases, in both formats.
 
 use super::common::{mirrorable, occupancy};
+use approx::abs_diff_eq;
 use mean_information::cell::{
     Cell, State, entropy, entropy_from_log_odds, information, information_from_log_odds,
     occupancy_from_log_odds,
@@ -21,7 +22,7 @@ proptest! {
     /// Each is within half an ulp, at most `2^-54`, the exact values add to 1, and so do the floats but for one rounding.
     #[test]
     fn entropy_and_information_add_to_one_bit(p in occupancy()) {
-        prop_assert!((entropy(p) + information(p) - 1.0).abs() <= f64::EPSILON);
+        prop_assert!(abs_diff_eq!(entropy(p) + information(p), 1.0, epsilon = f64::EPSILON));
     }
 
     #[test]
@@ -46,7 +47,7 @@ proptest! {
     fn single_precision_agrees_with_double(p in 0.0_f32..=1.0) {
         let (narrow, wide) = (information(p), information(f64::from(p)));
         let half_ulp = f64::from(narrow.next_up() - narrow) / 2.0;
-        prop_assert!((f64::from(narrow) - wide).abs() <= half_ulp * (1.0 + 1e-8));
+        prop_assert!(abs_diff_eq!(f64::from(narrow), wide, epsilon = half_ulp * (1.0 + 1e-8)));
     }
 
     #[test]
@@ -60,9 +61,9 @@ proptest! {
     #[test]
     fn log_odds_agree_with_the_occupancy_they_stand_for(l in -30.0_f64..30.0) {
         let p = occupancy_from_log_odds(l);
-        let difference = information(p) - information_from_log_odds(l);
         let slope = (l.abs() + 1.0) / std::f64::consts::LN_2;
-        prop_assert!(difference.abs() <= (slope + 2.0) * f64::EPSILON);
+        let epsilon = (slope + 2.0) * f64::EPSILON;
+        prop_assert!(abs_diff_eq!(information(p), information_from_log_odds(l), epsilon = epsilon));
     }
 }
 

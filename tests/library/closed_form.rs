@@ -1,6 +1,7 @@
 //! The closed form of the limit: relations, special cases, and another way to compute it. The vectors hold it to the truth.
 
 use super::common::power;
+use approx::abs_diff_eq;
 use core::f64::consts::{LN_2, PI};
 use mean_information::Real;
 use mean_information::cell::entropy;
@@ -93,7 +94,7 @@ proptest! {
         for weight in WEIGHTS {
             let (narrow, wide) = (limit(z, sigma, weight), limit(z.widen(), sigma.widen(), weight));
             let half_ulp = power(narrow.parts().1 - 1);
-            prop_assert!((narrow.widen() - wide).abs() <= half_ulp + power(-52));
+            prop_assert!(abs_diff_eq!(narrow.widen(), wide, epsilon = half_ulp + power(-52)));
         }
     }
 
@@ -125,8 +126,8 @@ proptest! {
     fn it_is_the_power_series(sigma in 0.1_f64..3.0, e in -40.0_f64..0.0) {
         let z = sigma * power(e as i32 - 1) * (1.0 + e.abs().fract());
         let [radial, area] = by_power_series(z / sigma);
-        prop_assert!((limit(z, sigma, Weight::Radial) - radial).abs() < 1000.0 * f64::EPSILON);
-        prop_assert!((limit(z, sigma, Weight::Area) - area).abs() < 1000.0 * f64::EPSILON);
+        prop_assert!(abs_diff_eq!(limit(z, sigma, Weight::Radial), radial, epsilon = 1000.0 * f64::EPSILON));
+        prop_assert!(abs_diff_eq!(limit(z, sigma, Weight::Area), area, epsilon = 1000.0 * f64::EPSILON));
     }
 
     /// `(α + b) (1 - radial)` grows by the integral of `h`, and `(α + b)^2 (1 - area) / 2` by that of what the other was.
@@ -142,10 +143,10 @@ proptest! {
         };
         let ((k_0, m_0), (k_1, m_1)) = (deficit(lower, from), deficit(upper, to));
         // Each is off by fewer than 8 roundings, that of alpha among them, of numbers below 16, and below 64 by area.
-        prop_assert!((k_1 - k_0 - integral(from, to, |_| 1.0)).abs() < 64.0 * f64::EPSILON);
+        prop_assert!(abs_diff_eq!(k_1 - k_0, integral(from, to, |_| 1.0), epsilon = 64.0 * f64::EPSILON));
         // C(to) - C(from) = (to - from) A(from) + int (to - t) h(t) dt, and A(b) belongs to both.
         let expected = (to - from) * k_0 + integral(from, to, |t| to - t);
-        prop_assert!((m_1 - m_0 - expected).abs() < 512.0 * f64::EPSILON, "{:e}", m_1 - m_0 - expected);
+        prop_assert!(abs_diff_eq!(m_1 - m_0, expected, epsilon = 512.0 * f64::EPSILON), "{:e}", m_1 - m_0 - expected);
     }
 }
 
@@ -160,7 +161,10 @@ fn quotients_at_the_ends_and_at_the_turns() {
         for weight in WEIGHTS {
             let [below, at, above] = [z.next_down(), z, z.next_up()].map(|z| limit(3.0 * z, 3.0, weight));
             // A neighbour of z moves the limit by less than 2^-53.
-            assert!((below - at).abs() <= power(-53) && (above - at).abs() <= power(-53));
+            assert!(
+                abs_diff_eq!(below, at, epsilon = power(-53))
+                    && abs_diff_eq!(above, at, epsilon = power(-53))
+            );
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Expected maps: exact means, Jensen's inequality, alignment, and what is refused.
 
 use super::common::{mirrorable, occupancy, power};
+use approx::abs_diff_eq;
 use mean_information::Error;
 use mean_information::cell::{information, occupancy_from_log_odds};
 use mean_information::expected::{ExpectedMap, Hypotheses, weighted_mean};
@@ -150,9 +151,9 @@ proptest! {
         // Cells here are rounded, each by at most 2^-54; there they are not; then both round.
         let cells = one.cells().len() as f64;
         let tolerance = cells * (power(-54) + power(-63)) + own.information() * f64::EPSILON;
-        prop_assert!((own.information() - expected.information()).abs() <= tolerance);
-        prop_assert!((own.entropy() - expected.entropy()).abs() <= cells * (power(-54) + power(-63)) + own.entropy() * f64::EPSILON);
-        prop_assert!((own.mean_information() - expected.mean_information()).abs() <= power(-54) + power(-63) + power(-53));
+        prop_assert!(abs_diff_eq!(own.information(), expected.information(), epsilon = tolerance));
+        prop_assert!(abs_diff_eq!(own.entropy(), expected.entropy(), epsilon = cells * (power(-54) + power(-63)) + own.entropy() * f64::EPSILON));
+        prop_assert!(abs_diff_eq!(own.mean_information(), expected.mean_information(), epsilon = power(-54) + power(-63) + power(-53)));
     }
 
     /// `I(EM) <= sum w_i I(m_i) / sum w_i`: each cell of the right side is rounded by at most `2^-54`, each of the
@@ -207,7 +208,7 @@ proptest! {
         prop_assert_eq!(placed.grid().cells(), padded.grid().cells());
         prop_assert_eq!(placed.tally(), padded.tally());
         let origin = placed.grid().geometry().origin();
-        prop_assert!((origin[0] - (-3.0 + low[0] as f64 * resolution)).abs() <= 1e-12);
+        prop_assert!(abs_diff_eq!(origin[0], -3.0 + low[0] as f64 * resolution, epsilon = 1e-12));
     }
 
     /// Twice the pool of two equal weights is the sum of the log-odds, as in fusion; all four roundings are relative
@@ -217,7 +218,7 @@ proptest! {
         let one = |p| Grid::<Probability<f64>>::new(1, 1, Geometry::new(0.5, [0.0; 2]).unwrap(), vec![p]).unwrap();
         let maps = [one(p), one(q)];
         let pool = Hypotheses::new(&maps, &[3.0, 3.0])?.log_linear_pool()?.cells()[0];
-        prop_assert!((occupancy_from_log_odds(2.0 * pool) - fuse(&[p, q])?).abs() <= 16.0 * f64::EPSILON);
+        prop_assert!(abs_diff_eq!(occupancy_from_log_odds(2.0 * pool), fuse(&[p, q])?, epsilon = 16.0 * f64::EPSILON));
     }
 }
 

@@ -1,6 +1,7 @@
 //! Fusion of observations: the formula, its relations, and certainties.
 
 use super::common::{mirrorable, occupancy};
+use approx::abs_diff_eq;
 use mean_information::Error;
 use mean_information::cell::{information, log_odds_from_occupancy, occupancy_from_log_odds};
 use mean_information::fusion::fuse;
@@ -49,7 +50,7 @@ proptest! {
         prop_assume!(p.iter().all(|&p| p > 0.0 && p < 1.0));
         let mirrored: Vec<f64> = p.iter().map(|&p| 1.0 - p).collect();
         let (p, q) = (fuse(&p)?, fuse(&mirrored)?);
-        prop_assert!((p + q - 1.0).abs() <= f64::EPSILON / 2.0);
+        prop_assert!(abs_diff_eq!(p + q, 1.0, epsilon = f64::EPSILON / 2.0));
     }
 
     /// Evidence of the same sign never lowers information.
@@ -74,7 +75,7 @@ proptest! {
     fn single_precision_is_double_precision_rounded_again(p in vec(0.01_f32..0.99, 0..6)) {
         let wide: Vec<f64> = p.iter().copied().map(f64::from).collect();
         let (narrow, wide) = (fuse(&p)?, fuse(&wide)?);
-        prop_assert!((f64::from(narrow) - wide).abs() <= f64::from(f32::EPSILON) / 4.0 * wide.max(0.25) * 2.01);
+        prop_assert!(abs_diff_eq!(f64::from(narrow), wide, epsilon = f64::from(f32::EPSILON) / 4.0 * wide.max(0.25) * 2.01));
     }
 }
 

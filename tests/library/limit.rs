@@ -1,6 +1,7 @@
 //! The limit, three ways: closed form, adaptive and rigorous must agree, for rooms and for models of the user's own.
 
 use super::common::Random;
+use approx::{abs_diff_eq, assert_abs_diff_eq, assert_relative_eq};
 use mean_information::cell::{information, occupancy_from_log_odds};
 use mean_information::elementary::{exp, ln};
 use mean_information::estimate::Status;
@@ -196,7 +197,7 @@ fn a_million_scans() {
         f64::from(scans) * (1.0 - limit.value)
     };
     let [coarse, fine] = [1 << 16, 1 << 20].map(scaled);
-    assert!((coarse / fine - 1.0).abs() < 1e-3, "{coarse} {fine}");
+    assert_relative_eq!(coarse, fine, epsilon = 0.0, max_relative = 1e-3);
 }
 
 /// Steps have a limit that can be written down.
@@ -211,7 +212,10 @@ fn steps_have_the_mean_of_their_two_levels() {
     for (weight, known) in WEIGHTS.into_iter().zip(known) {
         let enclosure = rigorous(&model, weight, &Rigorous::default()).unwrap();
         // The formula above rounds a few times.
-        assert!((enclosure.lower - known).abs() < 1e-15 && enclosure.width() < 5e-16, "{enclosure:?}");
+        assert!(
+            abs_diff_eq!(enclosure.lower, known, epsilon = 1e-15) && enclosure.width() < 5e-16,
+            "{enclosure:?}"
+        );
         let estimate = adaptive(&model, weight, &GaussKronrod::new()).unwrap();
         assert!((estimate.value - known).abs() <= estimate.error && estimate.error < 1e-11, "{estimate:?}");
     }
@@ -259,7 +263,10 @@ fn a_model_of_ones_own() {
     };
     let known = 1.0 - (primitive(model.high) - primitive(model.low)) / (model.high - model.low);
     let enclosure = rigorous(&model, Weight::Radial, &Rigorous::default()).unwrap();
-    assert!((enclosure.lower - known).abs() < 1e-15 && enclosure.width() < 2e-16, "{enclosure:?}, {known}");
+    assert!(
+        abs_diff_eq!(enclosure.lower, known, epsilon = 1e-15) && enclosure.width() < 2e-16,
+        "{enclosure:?}, {known}"
+    );
     let estimate = adaptive(&model, Weight::Radial, &GaussKronrod::new()).unwrap();
     assert!((estimate.value - known).abs() <= estimate.error, "{estimate:?}, {known}");
     let estimate = adaptive(&model, Weight::Area, &GaussKronrod::new()).unwrap();
@@ -310,7 +317,7 @@ fn grids_of_repeated_scans_tend_to_their_limit() {
     }
     let one = RepeatedScans::new(sensor, 1).unwrap();
     let limit = rigorous(&one, Weight::Area, &Rigorous::default()).unwrap();
-    assert!((limit.lower - closed_form(&sensor, Weight::Area)).abs() < 4e-16, "{limit:?}");
+    assert_abs_diff_eq!(limit.lower, closed_form(&sensor, Weight::Area), epsilon = 4e-16);
 }
 
 /// The deficit of many scans is `c / n` (bumps of the same shape, narrower and narrower), and `O(1 / n^2)`: the one at the
@@ -323,7 +330,7 @@ fn the_deficit_of_many_scans_falls_like_their_number() {
         f64::from(scans) * (1.0 - rigorous(&model, Weight::Radial, &Rigorous::default()).unwrap().upper)
     };
     let [coarse, fine] = [1_000, 4_000].map(|n| deficit(4 * n) / deficit(n) - 1.0);
-    assert!(coarse.abs() < 1e-4 && (coarse / fine - 4.0).abs() < 0.1, "{coarse:e}, {fine:e}");
+    assert!(coarse.abs() < 1e-4 && abs_diff_eq!(coarse / fine, 4.0, epsilon = 0.1), "{coarse:e}, {fine:e}");
 }
 
 /// A Gaussian room in metres, as one piece, from the sensor to so far: all of it in `ρ`.
@@ -352,6 +359,55 @@ impl RadialModel for InMetres {
         let t = (rho - S::constant(self.range)) / S::constant(self.sigma);
         (S::constant(-0.5) * t.square()).entropy_from_log_occupancy()
     }
+}
+
+/// Two peaks, broad and narrow, in one piece or in two: from 0 to 1200, cut at the narrow one.
+struct TwoPeaks {
+    is_cut: bool,
+}
+
+impl RadialModel for TwoPeaks {
+    type Float = f64;
+
+    fn origin(&self) -> f64 {
+        0.0
+    }
+
+    fn scale(&self) -> f64 {
+        1.0
+    }
+
+    fn pieces<S: Scalar>(&self) -> Vec<Piece<S>> {
+        let piece = |start, length, panels| Piece::new(S::constant(start), S::constant(length), panels);
+        if self.is_cut {
+            // 8^-8 of the length is below the width of the peak.
+            vec![piece(1000.25, -1000.25, 8), piece(1000.25, 199.75, 8)]
+        } else {
+            vec![piece(0.0, 1200.0, 1)]
+        }
+    }
+
+    fn entropy<S: Scalar>(&self, _: usize, t: S) -> S {
+        let peak = |at, width| {
+            let t = (t.clone() - S::constant(at)) / S::constant(width);
+            S::constant(0.375) * (S::constant(-0.5) * t.square()).exp()
+        };
+        peak(300.0, 10.0) + peak(1000.25, 0.001)
+    }
+}
+
+/// Beside another peak a narrow one is seen if a piece starts there, and, as the documentation says, not otherwise.
+#[test]
+fn a_second_peak_needs_a_piece_of_its_own() {
+    let model = |is_cut| TwoPeaks { is_cut };
+    let enclosure = rigorous(&model(true), Weight::Radial, &Rigorous::default()).unwrap();
+    let is_missed = |is_cut| {
+        let settings = GaussKronrod::new().relative(1e-9);
+        let estimate = adaptive(&model(is_cut), Weight::Radial, &settings).unwrap();
+        assert_eq!(estimate.status, Status::Converged);
+        (estimate.value - enclosure.lower).abs() > estimate.error + enclosure.width()
+    };
+    assert!(!is_missed(true) && is_missed(false));
 }
 
 /// A peak at the end of a piece, and one inside.

@@ -1,6 +1,7 @@
 //! Grids, encodings and pooling.
 
 use super::common::occupancy;
+use approx::abs_diff_eq;
 use mean_information::cell::{Cell, information};
 use mean_information::map::encoding::{LogOdds, MrptLogOdds, Percent, Probability};
 use mean_information::map::{Encoding, Geometry, Grid, Histogram, PolarMap};
@@ -40,7 +41,7 @@ proptest! {
                 if block.iter().all(|&p| p == 0.5) {
                     prop_assert_eq!(p, 0.5);
                 }
-                prop_assert!((p - block.iter().sum::<f64>() / area).abs() <= 1e-13);
+                prop_assert!(abs_diff_eq!(p, block.iter().sum::<f64>() / area, epsilon = 1e-13));
             }
         }
         let (fine, coarse) = (map.tally(), pooled.tally());

@@ -7,6 +7,7 @@ mod refused;
 mod removal;
 
 use super::common::power;
+use approx::{abs_diff_eq, abs_diff_ne, assert_abs_diff_eq};
 use mean_information::cell::log_odds_from_occupancy;
 use mean_information::map::encoding::LogOdds;
 use mean_information::map::{Geometry, Grid, encoding::Probability};
@@ -104,7 +105,7 @@ proptest! {
                 let found = map.cells()[row * map.width() + column];
                 // Distances are off by 2^-28 of a cell and some ulps, below 4e-9 m, and the slope |t| / (σ (1 - p))
                 // of the log-odds is at most 9 / σ where they are not limited.
-                prop_assert!(doubtful || (found - sum).abs() <= poses.len() as f64 * 9.0 / SIGMA * 4e-9, "{found} {sum}");
+                prop_assert!(doubtful || abs_diff_eq!(found, sum, epsilon = poses.len() as f64 * 9.0 / SIGMA * 4e-9), "{found} {sum}");
             }
         }
     }
@@ -176,7 +177,7 @@ proptest! {
     fn directions_agree_with_core_math(any in any::<f64>(), a in -1_i64 << 40..1 << 40, b in -1_i64 << 40..1 << 40) {
         let tolerance = power(-53) + power(-62);
         let near = |direction: Direction, angle: f64| {
-            (direction.cos() - core_math::cos(angle)).abs() <= tolerance && (direction.sin() - core_math::sin(angle)).abs() <= tolerance
+            abs_diff_eq!(direction.cos(), core_math::cos(angle), epsilon = tolerance) && abs_diff_eq!(direction.sin(), core_math::sin(angle), epsilon = tolerance)
         };
         let [a, b] = [a, b].map(|k| k as f64 * power(-20));
         prop_assert!(near(Direction::new(&[a])?, a));
@@ -268,7 +269,7 @@ proptest! {
         let narrow = map.log_odds()?;
         prop_assume!((wide.width(), wide.height()) == (narrow.width(), narrow.height()));
         // Ranges are off by 2^-24 of 3.25 m; at the edges of the model a cell may change sides.
-        let differ = wide.cells().iter().zip(narrow.cells()).filter(|&(&a, &b)| (a - f64::from(b)).abs() > 9.0 / SIGMA * 1e-6).count();
+        let differ = wide.cells().iter().zip(narrow.cells()).filter(|&(&a, &b)| abs_diff_ne!(a, f64::from(b), epsilon = 9.0 / SIGMA * 1e-6)).count();
         prop_assert!(differ <= 1);
     }
 }
@@ -300,8 +301,9 @@ fn a_dense_scan_of_the_circular_room_is_its_cartesian_grid() {
     assert_eq!((found.free(), found.occupied()), (sampled.free(), sampled.occupied()));
     // A cell of l = 40 has H = 2.5e-16 bits; those beyond are limited to it. Roundings of p and l move I by less than
     // 1e-15.
-    assert!((found.mean_information() - sampled.mean_information()).abs() <= 2e-15);
-    assert!((found.mean_information() - 0.6525).abs() < 2e-3, "near the area limit");
+    assert_abs_diff_eq!(found.mean_information(), sampled.mean_information(), epsilon = 2e-15);
+    // Near the area limit.
+    assert_abs_diff_eq!(found.mean_information(), 0.6525, epsilon = 2e-3);
 }
 
 /// Free cells that another beam of the scan finds occupied stay occupied; of two alike the surer counts, once.

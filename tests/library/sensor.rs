@@ -1,6 +1,7 @@
 //! Inverse sensor models: Eq. 5 against its formula, its relations and its edge.
 
 use super::common::power;
+use approx::abs_diff_eq;
 use mean_information::Real;
 use mean_information::elementary::exp;
 use mean_information::sensor::{GaussianSensor, InverseSensorModel, SteppedSensor};
@@ -17,7 +18,7 @@ proptest! {
         let t = (rho - z) / sigma;
         let r = t * t / 2.0;
         let p = exp(-r);
-        prop_assert!((sensor.occupancy(rho) - p).abs() <= p * (4.0 * r + 2.0) * f64::EPSILON);
+        prop_assert!(abs_diff_eq!(sensor.occupancy(rho), p, epsilon = p * (4.0 * r + 2.0) * f64::EPSILON));
     }
 
     #[test]
@@ -67,7 +68,7 @@ proptest! {
     fn single_precision_agrees_with_double(z in 0.1_f32..80.0, sigma in 0.01_f32..3.0, rho in 0.0_f32..90.0) {
         let narrow = GaussianSensor::new(z, sigma)?.occupancy(rho);
         let wide = GaussianSensor::new(f64::from(z), f64::from(sigma))?.occupancy(f64::from(rho));
-        prop_assert!((f64::from(narrow) - wide).abs() <= wide * f64::from(f32::EPSILON) / 2.0 * (1.0 + 1e-8) + 1e-45);
+        prop_assert!(abs_diff_eq!(f64::from(narrow), wide, epsilon = wide * f64::from(f32::EPSILON) / 2.0 * (1.0 + 1e-8) + 1e-45));
     }
 }
 

@@ -41,9 +41,8 @@ fn sources(folder: &str) -> Vec<PathBuf> {
     paths.sort();
     let within = |path: PathBuf| match path.extension() {
         None if Path::new(ROOT).join(&path).is_dir() => sources(path.to_str().unwrap()),
-        None => vec![],
         Some(extension) if extension == "rs" => vec![path],
-        Some(_) => vec![],
+        _ => vec![],
     };
     paths.into_iter().flat_map(within).collect()
 }

@@ -11,7 +11,7 @@ const PACKAGES: [(&str, &[&str], &[&str]); 3] = [
         &["src/lib.rs", "docs/rounding.md", "docs/figures/figure-1.svg", "vectors/v1/cell.entropy.json"],
     ),
     ("mean-information-files", &["src/"], &["src/lib.rs"]),
-    ("mean-information-cli", &["src/"], &["src/main.rs", "src/paper/page.css"]),
+    ("mean-information-cli", &["src/"], &["src/main.rs", "src/output/page.css"]),
 ];
 /// Files of every package.
 const ALWAYS: [&str; 5] = ["Cargo.toml", "Cargo.toml.orig", "README.md", "LICENSE-APACHE", "LICENSE-MIT"];

@@ -210,8 +210,7 @@ impl Expression {
     pub(crate) fn rounded(&self, fused: bool) -> String {
         let of = |x: &Self| x.rounded(fused);
         match self {
-            Number(text) => text.clone(),
-            Name(text) => text.clone(),
+            Number(text) | Name(text) => text.clone(),
             Negative(inner) => format!("-{}", of(inner)),
             Call(name, arguments) => match (name.as_str(), arguments.as_slice()) {
                 ("one", []) => "1".to_owned(),

@@ -1,11 +1,12 @@
 //! Why a command did not do what it was asked: one line for stderr, and exit status 2.
 
 use crate::one_line::one_line;
-use mean_information_files::{Error, ErrorKind};
+use mean_information_files::{Error, ErrorKind, Place};
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-/// A refused input or request. Its text is one line and says what to do.
+/// A refused input or request. Its text is one line and says what to do; that of several has one line for each, which
+/// begin with the name of the program from the second on.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Failure {
     /// The arguments make no sense.
@@ -32,6 +33,8 @@ pub enum Failure {
     },
     /// A picture cannot be drawn.
     Drawing(String),
+    /// Several inputs are refused, each for its own reason.
+    Several(Vec<Failure>),
 }
 
 impl fmt::Display for Failure {
@@ -44,6 +47,10 @@ impl fmt::Display for Failure {
             Self::Vectors(message) => write!(f, "the vectors built in: {}", one_line(message)),
             Self::Port { command, message } => write!(f, "{}: {}", one_line(command), one_line(message)),
             Self::Drawing(message) => write!(f, "the picture cannot be drawn: {}", one_line(message)),
+            Self::Several(failures) => {
+                let lines: Vec<String> = failures.iter().map(ToString::to_string).collect();
+                f.write_str(&lines.join("\nmeaninfo: "))
+            }
         }
     }
 }
@@ -57,6 +64,14 @@ impl Failure {
     }
 }
 
+/// Tells whether a cell was refused whose value often means unknown, and for which `--unknown` can be given.
+fn may_be_unknown(error: &Error) -> bool {
+    let of_floats = error.allowed().is_some_and(|allowed| !allowed.contains("percentage"));
+    matches!(error.place(), Some(Place::Cell { map: None, .. }))
+        && of_floats
+        && matches!(error.value(), Some("NaN" | "-1"))
+}
+
 impl From<Error> for Failure {
     /// Takes the error of a reader or a writer, with the option that may mend it.
     fn from(error: Error) -> Self {
@@ -67,6 +82,13 @@ impl From<Error> for Failure {
             ErrorKind::Options => "--unknown needs --mode probability; give both or neither".to_owned(),
             ErrorKind::Choice => {
                 format!("{}; `meaninfo bag --topic` names one, --force admits costmaps", error.message())
+            }
+            ErrorKind::OutOfRange if may_be_unknown(&error) => {
+                format!("{}, as does --unknown {}", error.message(), error.value().unwrap_or_default())
+            }
+            // An array of integers, which may be percentages or MRPT's bytes.
+            ErrorKind::Unsupported if error.message().contains("integers other than int8") => {
+                format!("{}; --encoding percent reads them as they are", error.message())
             }
             _ => error.message().to_owned(),
         };

@@ -22,6 +22,7 @@
 //! | [`convergence`] | grids of a circular room against their limit |
 //! | [`plots`] | pictures of maps, curves, sweeps, bags and convergence |
 //! | [`paper`] | the figures and the claims of the report |
+//! | [`trajectory`] | trajectories compared by the maps that they make of the same scans |
 //! | [`commands`] | the arguments, and what they ask for |
 
 pub mod check;
@@ -43,5 +44,6 @@ pub mod series;
 pub mod simulation;
 mod submaps;
 pub mod sweep;
+pub mod trajectory;
 
 pub use failure::Failure;

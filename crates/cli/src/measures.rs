@@ -4,7 +4,8 @@ use crate::output::{Number, Value};
 use mean_information::cell::Cell;
 use mean_information::map::{Encoding, Grid};
 use mean_information::{Real, Tally};
-use mean_information_files::{Cells, Contents, Counted, Counts, with_grid};
+use mean_information_files::{Cells, CellsVisitor, Contents, Counted, Counts, Readable, Warning, with_grid};
+use std::any::Any;
 
 /// The measures of a grid: its size, the sums of Eqs. 2 to 4 of the paper, and the counts behind them.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,13 +42,28 @@ impl Measures {
         Self::new([grid.width(), grid.height()], &grid.tally(), marked)
     }
 
-    /// Measures what was read of a map.
-    pub fn of_contents(contents: &Contents) -> Self {
+    /// Measures what was read of a map, whose other cells `sums` visited.
+    pub fn of_contents(contents: &Contents, sums: &Sums) -> Self {
         match contents {
             Contents::Cells(cells) => Self::of(cells),
             Contents::Counted(Counted::Percent(counts)) => Self::of_counts(counts),
+            Contents::Counted(Counted::Mrpt(counts)) => Self::of_counts(counts),
             Contents::Counted(Counted::Probability(counts)) => Self::of_counts(counts),
+            Contents::Visited { width, height } => match &sums.tally {
+                None => Self::new([*width, *height], &Tally::<f64>::new(), || false),
+                Some(TallyOf::Single(tally)) => Self::new([*width, *height], tally, || sums.marked),
+                Some(TallyOf::Double(tally)) => Self::new([*width, *height], tally, || sums.marked),
+            },
         }
+    }
+
+    /// Takes note of what was noticed when the map was read: sums that were rounded mean nothing.
+    #[must_use]
+    pub fn noticing(mut self, warnings: &[Warning]) -> Self {
+        if warnings.iter().any(|warning| matches!(warning, Warning::BesideUnknown { .. })) {
+            self.not_meaningful = self.not_meaningful.or(Some(NotMeaningful::BesideUnknown));
+        }
+        self
     }
 
     /// Measures a map of which is known how often each value occurs.
@@ -62,9 +78,9 @@ impl Measures {
         Self::new([counts.width, counts.height], &tally, marked)
     }
 
-    /// Takes the measures of an expected map, of which only the sums are known: a cell that is unknown there is not marked so
-    /// by anyone, but no percentage either.
-    pub fn of_expected<T: Real>(size: [usize; 2], tally: &Tally<T>) -> Self {
+    /// Takes the measures of a map of which only the sums are known, as an expected one or one of scans: a cell that is unknown
+    /// there is not marked so by anyone, but no percentage either.
+    pub fn of_tally<T: Real>(size: [usize; 2], tally: &Tally<T>) -> Self {
         Self::new(size, tally, || tally.unknown() > 0)
     }
 
@@ -123,6 +139,40 @@ impl Measures {
     }
 }
 
+/// The sums over the cells of a map that are visited, some at a time, and not kept.
+#[derive(Debug, Default)]
+pub struct Sums {
+    tally: Option<TallyOf>,
+    /// True if a cell is marked as unknown.
+    marked: bool,
+}
+
+/// A tally in either precision.
+#[derive(Debug)]
+enum TallyOf {
+    Single(Tally<f32>),
+    Double(Tally<f64>),
+}
+
+impl CellsVisitor for Sums {
+    fn visit<E: Readable>(&mut self, cells: &[E::Stored]) {
+        self.marked = self.marked || cells.contains(&E::unknown());
+        let tally: Box<dyn Any> = Box::new(E::tally(cells));
+        match tally.downcast::<Tally<f32>>() {
+            Ok(tally) => match &mut self.tally {
+                Some(TallyOf::Single(all)) => all.merge(&tally),
+                _ => self.tally = Some(TallyOf::Single(*tally)),
+            },
+            Err(tally) => match (tally.downcast::<Tally<f64>>(), &mut self.tally) {
+                (Ok(tally), Some(TallyOf::Double(all))) => all.merge(&tally),
+                (Ok(tally), _) => self.tally = Some(TallyOf::Double(*tally)),
+                // `Real` is sealed: there is no third precision.
+                (Err(_), _) => {}
+            },
+        }
+    }
+}
+
 /// Why a mean information means nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NotMeaningful {
@@ -134,6 +184,8 @@ pub enum NotMeaningful {
     NothingObserved,
     /// Every cell is unknown, and not because it is marked so: each holds 50 percent.
     AllFiftyPercent,
+    /// Many cells are beside unknown by rounding only.
+    BesideUnknown,
 }
 
 impl NotMeaningful {
@@ -157,6 +209,7 @@ impl NotMeaningful {
             Self::NoCells => "no cells",
             Self::NothingObserved => "nothing observed",
             Self::AllFiftyPercent => "all 50 percent",
+            Self::BesideUnknown => "unknown cells rounded",
         }
     }
 
@@ -169,6 +222,10 @@ impl NotMeaningful {
             Self::NoCells => "the map has no cells, so there is no mean information",
             Self::NothingObserved => {
                 "nothing observed: every cell is unknown, so there is no mean information"
+            }
+            Self::BesideUnknown => {
+                "many cells would be unknown but for rounding, so the mean information is too low: average with exact sums, \
+                 or round the probabilities"
             }
             Self::AllFiftyPercent => {
                 "every cell is exactly 50 percent, which means unknown: nothing is observed"

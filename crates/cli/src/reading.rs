@@ -9,16 +9,19 @@ use mean_information_files::{ArrayEncoding, Mode, Options, Semantics, Warning};
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Reading")]
 pub struct Reading {
-    /// Whose rules turn the grey levels of a ROS map into percentages.
+    /// Whose rules turn the grey levels of a ROS map into percentages: nav2 of Kilted and Rolling, nav2 of Humble, Iron and
+    /// Jazzy (before pull request 5071 of April 2025: thresholds compared strictly, colours and alpha averaged), or ROS 1.
     #[arg(long, value_enum, default_value_t)]
     semantics: Semantics,
     /// How the grey levels of a ROS map are meant; the file's own mode if absent.
     #[arg(long, value_enum)]
     mode: Option<Mode>,
-    /// With --mode probability, the grey level (of the image's own depth) that means unknown.
-    #[arg(long, value_name = "GREY")]
-    unknown: Option<u16>,
-    /// What the numbers of an .npy array are; if absent, floats are probabilities and int8 are percentages.
+    /// The value that means unknown: with --mode probability a grey level (of the image's own depth), in an array of
+    /// floats any number, or nan.
+    #[arg(long, value_name = "GREY|NUMBER|nan")]
+    unknown: Option<f64>,
+    /// What the numbers of an .npy array are; if absent, floats are probabilities, int8 and uint8 percentages, and bool
+    /// free or occupied.
     #[arg(long, value_enum)]
     encoding: Option<ArrayEncoding>,
     /// The side of a cell of an .npy array in metres.
@@ -26,7 +29,7 @@ pub struct Reading {
     resolution: Option<f64>,
     /// Refuse a map of more cells than this before any is read; if absent, of more than 268435456 where cells are kept:
     /// 1 byte a cell, 8 in --mode probability, and as many in .npy arrays as the file has. Where `meaninfo map` only
-    /// counts the pixels of an image, which takes no memory, the limit is 17179869184 for PNG, and none for PGM.
+    /// counts cells, which takes no memory, the limit is 17179869184 for PNG and .npz, and none for PGM and .npy.
     #[arg(long, value_name = "N")]
     max_cells: Option<u64>,
 }
@@ -59,6 +62,19 @@ pub fn in_words(warnings: &[Warning]) -> Vec<String> {
             format!("{warning}, so that the mean information is at most {most:.3}")
         }
         Warning::SubmapsTogether { .. } => format!("{warning}; --submaps gives each a row"),
+        Warning::OftenUnknownValue { value, .. } => {
+            format!("{warning}; give --unknown {value} if it means unknown here")
+        }
+        Warning::GreysThresholded { unknown, .. } => {
+            let unknown = unknown.map_or_else(String::new, |grey| format!(" --unknown {grey}"));
+            format!("{warning}; --mode scale or --mode probability{unknown} uses them")
+        }
+        Warning::NoPercentageAbove1 { .. } => {
+            format!("{warning}; save 100 * p where p is 1 if they are states")
+        }
+        Warning::TransparentReadAsUnknown { .. } => {
+            format!("{warning}; --semantics nav2-humble or ros1 average alpha in mode trinary")
+        }
         warning => warning.to_string(),
     };
     warnings.iter().map(in_words).collect()

@@ -32,7 +32,7 @@ impl Sweep {
     /// # Errors
     /// A cell size that is not finite.
     pub fn of(name: String, map: &Map) -> Result<Self, mean_information::Error> {
-        let mut steps = vec![Step { k: 1, measures: Measures::of(&map.cells) }];
+        let mut steps = vec![Step { k: 1, measures: Measures::of(&map.cells).noticing(&map.warnings) }];
         let (width, height) = (steps[0].measures.width, steps[0].measures.height);
         let covering = width.max(height).checked_next_power_of_two().unwrap_or(usize::MAX);
         let progress = Progress::new(covering.ilog2() as usize);

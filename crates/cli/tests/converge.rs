@@ -2,6 +2,7 @@
 
 mod common;
 
+use approx::assert_abs_diff_eq;
 use common::*;
 use serde_json::Value;
 
@@ -44,7 +45,7 @@ fn rows_are_the_grids_of_the_room() {
                 let weight = if grid == "polar" { 1.0 } else { rho };
                 (sum + weight * measure([rho].into_iter(), range, sigma).0, all + weight)
             });
-        assert!((json["limit"].as_f64().unwrap() - sum / weights).abs() < 3e-5);
+        assert_abs_diff_eq!(json["limit"].as_f64().unwrap(), sum / weights, epsilon = 3e-5);
         let rows = json["rows"].as_array().unwrap();
         for (row, h) in rows.iter().zip([0.8, 0.17, 0.06]) {
             let (mean, observed) = if grid == "polar" {
@@ -58,7 +59,7 @@ fn rows_are_the_grids_of_the_room() {
             assert_near(&row["mean_information"], mean);
             assert_eq!(row["observed"], observed);
             let error = row["error"].as_f64().unwrap();
-            assert!((error - (mean - json["limit"].as_f64().unwrap())).abs() < 1e-9);
+            assert_abs_diff_eq!(error, mean - json["limit"].as_f64().unwrap(), epsilon = 1e-9);
             for bound in ["bound", "bound_of_count"] {
                 assert!(error.abs() <= row[bound].as_f64().unwrap(), "{row}");
             }

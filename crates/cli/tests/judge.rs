@@ -74,9 +74,10 @@ fn a_faulty_port_is_wrong_where_the_check_finds_it_wrong() {
         let check = meaninfo().args(["check", "--ops", ops, "--", "python3", &port]).output().unwrap();
         assert_eq!(last_line(&output.stdout), last_line(&check.stdout), "{ops}");
     }
-    // A port that ends, or prints something else.
-    for command in [&["python3", "-c", "print('ready')"][..], &["python3", "-c", "pass"]] {
-        let Some(output) = judge(command) else { return };
+    // A port that ends, or prints something else: no JSON, no object, no welcome.
+    let programs = ["print('ready')", "pass", "print(1.5)", "print('{\"protocol\": 1}')"];
+    for command in programs.map(|program| ["python3", "-c", program]) {
+        let Some(output) = judge(&command) else { return };
         assert_eq!(output.status.code(), Some(2));
         assert!(text(&output.stderr).starts_with("judge.py: no answer"), "{}", text(&output.stderr));
     }
@@ -95,4 +96,53 @@ fn functions_are_judged() {
     assert!(text(&output.stdout).contains("    entropy/f64/"), "{}", text(&output.stdout));
     let output = judge(&["--ops", "cell.*", "--call", &format!("{file}:entropy")]).unwrap();
     assert_eq!(output.status.code(), Some(2));
+}
+
+/// A port whose answers are those of the library, but for what a change makes of their text.
+fn changed(change: &str, meaninfo: &str) -> String {
+    format!(
+        r#"
+import re, subprocess, sys
+port = subprocess.Popen([{meaninfo:?}, "port"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+for line in sys.stdin:
+    port.stdin.write(line)
+    port.stdin.flush()
+    print(re.sub({change}, port.stdout.readline()), end="", flush=True)
+"#
+    )
+}
+
+/// -0 is within a tolerance of several ulp of 0, and not the nearest float; texts are read exactly.
+#[test]
+fn signs_and_digits_are_read_as_the_check_reads_them() {
+    let folder = Folder::new();
+    let (port, meaninfo) =
+        (folder.text_path("port.py"), meaninfo().get_program().to_str().unwrap().to_owned());
+    for (change, ops, is_right) in [
+        (r#"r'"0x0p\+?0"', '"-0x0p+0"'"#, "expected.*", true),
+        (r#"r'"0x0p\+?0"', '"-0x0p+0"'"#, "cell.information", false),
+        // Digits that no float has, though the nearest float is right.
+        (r#"r'(0x1\.[0-9a-f]+)p', r'\g<1>00000000000000001p'"#, "cell.information", false),
+        (r#"r'(0x1\.[0-9a-f]+)p', r'\g<1>0000000000000000p'"#, "cell.information", true),
+        // A decimal is no hexadecimal float.
+        (r#"r'"0x1p-1"', '"0.5"'"#, "cell.information", false),
+    ] {
+        fs::write(&port, changed(change, &meaninfo)).unwrap();
+        let Some(output) = judge(&["--ops", ops, "python3", &port]) else { return };
+        assert_eq!(output.status.code(), Some(i32::from(!is_right)), "{ops}: {}", text(&output.stdout));
+        let check = self::meaninfo().args(["check", "--ops", ops, "--", "python3", &port]).output().unwrap();
+        assert_eq!(last_line(&output.stdout), last_line(&check.stdout), "{change} {ops}");
+    }
+}
+
+#[test]
+fn a_function_that_gives_no_number_is_bad_usage() {
+    let folder = Folder::new();
+    let file = folder.text_path("functions.py");
+    fs::write(&file, "def nothing(p):\n    pass\n").unwrap();
+    let Some(output) = judge(&["--ops", "cell.entropy", "--call", &format!("{file}:nothing")]) else {
+        return;
+    };
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).contains("no number, but None"), "{}", text(&output.stderr));
 }

@@ -2,6 +2,7 @@
 
 mod common;
 
+use approx::assert_abs_diff_eq;
 use common::*;
 use mean_information::room::CartesianRoom;
 use mean_information::sensor::GaussianSensor;
@@ -147,7 +148,7 @@ fn what_was_recorded_is_read_back() {
         assert_eq!((trajectory.times(), warnings), (held.trajectory.times(), vec![]));
         for (own, other) in held.trajectory.poses().iter().zip(trajectory.poses()) {
             assert_eq!(own.position(), other.position());
-            assert!((own.theta() - other.theta()).abs() < 1e-14, "{own:?} {other:?}");
+            assert_abs_diff_eq!(own.theta(), other.theta(), epsilon = 1e-14);
         }
     }
     let readings: Vec<_> = log.scans.iter().flat_map(RangeScan::readings).collect();

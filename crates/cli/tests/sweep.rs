@@ -2,6 +2,7 @@
 
 mod common;
 
+use approx::abs_diff_eq;
 use common::*;
 use serde_json::Value;
 
@@ -192,7 +193,7 @@ fn points_stand_where_their_axis_says() {
             let value = if logarithmic { libm::log10(value) } else { value };
             let expected = y0 + (value - v0) / (v1 - v0) * (y1 - y0);
             let cy = number(circle, "cy");
-            assert!((cy - expected).abs() <= 1.5, "{key} {value}: {cy}, not {expected}");
+            assert!(abs_diff_eq!(cy, expected, epsilon = 1.5), "{key} {value}: {cy}, not {expected}");
         }
     }
 }

@@ -25,8 +25,34 @@ pub enum Cells {
 pub enum Contents {
     /// The cells.
     Cells(Cells),
-    /// The values of an image.
+    /// The values of an image or of an array of integers.
     Counted(Counted),
+    /// Nothing: all cells were given to a [`CellsVisitor`].
+    Visited {
+        /// Columns.
+        width: usize,
+        /// Rows.
+        height: usize,
+    },
+}
+
+/// A visitor of the cells of a map of floats, some at a time, which are not kept: all are in one encoding.
+///
+/// ```
+/// use mean_information_files::{CellsVisitor, Readable};
+///
+/// /// Counts the cells.
+/// struct Count(usize);
+///
+/// impl CellsVisitor for Count {
+///     fn visit<E: Readable>(&mut self, cells: &[E::Stored]) {
+///         self.0 += cells.len();
+///     }
+/// }
+/// ```
+pub trait CellsVisitor {
+    /// Visits the next cells, all of which are allowed in their encoding.
+    fn visit<E: Readable>(&mut self, cells: &[E::Stored]);
 }
 
 impl From<Cells> for Contents {
@@ -35,11 +61,13 @@ impl From<Cells> for Contents {
     }
 }
 
-/// The values of an image in the encoding of its mode.
+/// The values of a map that were counted, in their encoding.
 #[derive(Clone, Debug)]
 pub enum Counted {
     /// ROS percentages.
     Percent(Counts<Percent>),
+    /// MRPT bytes.
+    Mrpt(Counts<MrptLogOdds>),
     /// Probabilities, of [`Mode::Probability`](crate::Mode::Probability).
     Probability(Counts<Probability<f64>>),
 }
@@ -77,6 +105,24 @@ impl ImageEncoding for Probability<f64> {
 pub trait Readable: Encoding {
     /// Returns a grid in this encoding as a map's cells.
     fn cells(grid: Grid<Self>) -> Cells;
+}
+
+/// An encoding in bytes, whose cells can be counted by value.
+pub(crate) trait ByteEncoding: Readable<Stored = i8> {
+    /// Returns counts in this encoding as those of a map.
+    fn counted(counts: Counts<Self>) -> Counted;
+}
+
+impl ByteEncoding for Percent {
+    fn counted(counts: Counts<Self>) -> Counted {
+        Counted::Percent(counts)
+    }
+}
+
+impl ByteEncoding for MrptLogOdds {
+    fn counted(counts: Counts<Self>) -> Counted {
+        Counted::Mrpt(counts)
+    }
 }
 
 macro_rules! readable {

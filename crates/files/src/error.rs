@@ -258,7 +258,13 @@ impl From<mean_information::Error> for Error {
     /// Takes what the library refuses of a file: a cell, or a number beside the cells.
     fn from(error: mean_information::Error) -> Self {
         use mean_information::Error as Refused;
-        let mut refused = Self::new(ErrorKind::OutOfRange, error.to_string());
+        let mut words = error.to_string();
+        if let Refused::OutOfRange { value, .. } | Refused::Item { value, .. } | Refused::Cell { value, .. } =
+            error
+        {
+            words = words.replacen(&value.to_string(), &short(value), 1);
+        }
+        let mut refused = Self::new(ErrorKind::OutOfRange, words);
         match error {
             Refused::OutOfRange { value, allowed, .. } => refused.set(value, allowed, None),
             Refused::Item { index, value, allowed, .. } => {
@@ -276,7 +282,7 @@ impl From<mean_information::Error> for Error {
 impl Error {
     /// Sets the parts of what the library refused.
     fn set(&mut self, value: f64, allowed: &'static str, place: Option<Place>) {
-        self.0.value = Some(value.to_string());
+        self.0.value = Some(short(value));
         self.0.allowed = Some(allowed.into());
         self.0.place = place;
     }
@@ -287,5 +293,15 @@ impl Error {
             *map = Some(index);
         }
         self
+    }
+}
+
+/// Returns a number in few characters: a power of ten stands in the place of hundreds of zeros.
+fn short(value: f64) -> String {
+    let size = value.abs();
+    if size == 0.0 || !size.is_finite() || (1e-5..1e16).contains(&size) {
+        value.to_string()
+    } else {
+        format!("{value:e}")
     }
 }

@@ -1,5 +1,4 @@
-//! Occupancy maps, range scans and trajectories as the field stores them, read for [`mean_information`] and written from
-//! it.
+//! Occupancy maps, range scans and trajectories as the field stores them, read for [`mean_information`] and written.
 //!
 //! A ROS map of 2 x 2 cells: occupied, unknown, free, and grey 64, which nav2 reads as 75 percent. The information of its
 //! three observed cells is 1, 1 and 0.1887 bits.
@@ -25,8 +24,10 @@
 //! # Ok::<(), mean_information_files::Error>(())
 //! ```
 //!
-//! [`read_scans`] reads a log of range scans, [`read_trajectory`] a trajectory. [`read_map`] takes a path on a disk, [`read_map_from`] any [`Source`] of files. [`read_map_contents`] counts the cells
-//! of an image and keeps none, for who only measures them. Nothing here measures, prints, or knows of a command line.
+//! [`read_map`] takes a path on a disk, [`read_map_from`] any [`Source`] of files. [`read_map_contents`] counts the cells
+//! of images and arrays, or hands them on in pieces, and keeps none, for who only measures them. [`read_scans`] reads a log
+//! of range scans, [`read_trajectory`] the poses at which they may be inserted into a map. Nothing here measures, prints, or
+//! knows of a command line.
 //!
 //! A module depends only on those above it:
 //!
@@ -39,9 +40,10 @@
 //! | `source` | [`Source`]: where files come from, a [`Disk`] or [`Memory`] |
 //! | `cells` | [`Cells`]: a grid in one of the encodings, and [`Counts`] of its values |
 //! | `map` | [`Map`]: cells, resolution, warnings |
-//! | `image` | PGM and PNG, from the top a piece at a time |
+//! | `image` | PGM and PNG, from the top a piece at a time; BMP, PPM, JPEG and others, decoded whole |
 //! | [`ros`] | ROS maps: a yaml file that describes an image |
 //! | [`npy`] | NumPy's arrays |
+//! | `npz` | archives of them |
 //! | [`gridmap`] | MRPT's grid maps |
 //! | [`pbstream`] | Cartographer's saved states |
 //! | `text` | lines of text and their fields |
@@ -50,7 +52,8 @@
 //! | [`bags`] | bags of messages, and the maps in them |
 //! | `read` | files by the ending of their names |
 //!
-//! The feature `clap` makes [`Semantics`], [`Mode`] and [`ArrayEncoding`] values of a command line's options.
+//! The feature `clap` makes [`Semantics`], [`Mode`], [`ArrayEncoding`], [`scans::NoReturn`] and [`scans::TimeField`] values
+//! of a command line's options.
 
 pub mod bags;
 mod cells;
@@ -59,6 +62,7 @@ pub mod gridmap;
 mod image;
 mod map;
 pub mod npy;
+mod npz;
 mod options;
 pub mod pbstream;
 mod read;
@@ -70,14 +74,14 @@ mod text;
 pub mod trajectory;
 mod warning;
 
-pub use cells::{Cells, Contents, Counted, Counts, Readable};
+pub use cells::{Cells, CellsVisitor, Contents, Counted, Counts, Readable};
 pub use error::{Error, ErrorKind, Place};
 pub use map::Map;
 pub use options::{ArrayEncoding, MAX_CELLS, MAX_COUNTED, Mode, Options, Semantics};
 pub use read::{
-    read_map, read_map_contents, read_map_contents_from, read_map_from, read_particles, read_particles_from,
-    read_scans, read_scans_from, read_submaps, read_submaps_from, read_trajectory, read_trajectory_from,
-    read_weights, read_weights_from,
+    file_of, read_map, read_map_contents, read_map_contents_from, read_map_from, read_particles,
+    read_particles_from, read_scans, read_scans_from, read_submaps, read_submaps_from, read_trajectory,
+    read_trajectory_from, read_weights, read_weights_from,
 };
 pub use source::{Disk, Memory, Opened, Source};
 pub use trajectory::{Association, Trajectory, tum};

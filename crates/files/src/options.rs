@@ -12,9 +12,11 @@ pub const MAX_COUNTED: u64 = 1 << 34;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 pub enum Semantics {
-    /// `nav2_map_server`.
+    /// `nav2_map_server` since pull request 5071 of April 2025: Kilted, Rolling.
     #[default]
     Nav2,
+    /// `nav2_map_server` before it: Humble, Iron, Jazzy. Thresholds are compared strictly, colours and alpha averaged.
+    Nav2Humble,
     /// ROS 1's `map_server`.
     Ros1,
 }
@@ -54,14 +56,16 @@ pub struct Options {
     pub semantics: Semantics,
     /// The meaning of the grey levels of a ROS map; the file's own mode if absent.
     pub mode: Option<Mode>,
-    /// The grey level, of the image's own depth, that means unknown in [`Mode::Probability`].
-    pub unknown: Option<u16>,
+    /// The value that means unknown: the grey level, of the image's own depth, in [`Mode::Probability`], or a number of an
+    /// array of floats, NaN for every NaN.
+    pub unknown: Option<f64>,
     /// The meaning of the numbers of an `.npy` array; if absent, floats are probabilities and int8 are percentages.
     pub encoding: Option<ArrayEncoding>,
     /// The side of a cell of an `.npy` array in metres.
     pub resolution: Option<f64>,
-    /// The most cells of a map, refused before any is read; if absent, [`MAX_CELLS`] where cells are kept, and where the
-    /// pixels of an image are only counted [`MAX_COUNTED`] for PNG and none for PGM, which is at least as long.
+    /// The most cells of a map, refused before any is read; if absent, [`MAX_CELLS`] where cells are kept, and where they
+    /// are only counted [`MAX_COUNTED`] for what is compressed (PNG, `.npz`) and none for PGM and `.npy`, which are at
+    /// least as long.
     pub max_cells: Option<u64>,
 }
 

@@ -1,18 +1,19 @@
 //! Files by the ending of their names.
 
 use crate::bags::{self, MapTopic};
-use crate::cells::{Cells, Contents};
+use crate::cells::{Cells, CellsVisitor, Contents};
 use crate::error::{Error, ErrorKind};
-use crate::gridmap;
 use crate::map::Map;
 use crate::npy::{self, MapsVisitor};
-use crate::options::{Mode, Options};
+use crate::options::{MAX_COUNTED, Mode, Options};
 use crate::pbstream::{self, Submap};
 use crate::ros::{self, Sink};
 use crate::scans::{ScanLog, ScanOptions};
-use crate::source::{Disk, ENDINGS, Opened, Source};
+use crate::source::{Disk, ENDINGS, Opened, Source, open};
 use crate::trajectory::{Trajectory, tum};
 use crate::warning::Warning;
+use crate::{gridmap, npz};
+use std::io::Read;
 use std::path::Path;
 
 /// Reads the map at `path` on the disk: as [`read_map_from`]; of a bag, [its last](bags::last_map) of the only topic of
@@ -27,28 +28,33 @@ pub fn read_map(path: &Path, options: &Options) -> Result<Map, Error> {
     read_map_from(&Disk, path, options)
 }
 
-/// Reads the map at `path` of `source`, by its file name ending: `.yaml`/`.yml`, `.npy`, `.gridmap`, `.gridmap.gz`.
+/// Reads the map at `path` of `source`, by its file name ending: `.yaml`/`.yml`, `.npy`, `.gridmap`, `.gridmap.gz`; and
+/// `FILE.npz:KEY`, or `FILE.npz` if it holds one array.
 ///
 /// # Errors
 /// An [`Error`] naming the file, what is wrong and what is allowed; [`ErrorKind::Options`] for a grey level for unknown
 /// outside [`Mode::Probability`].
 pub fn read_map_from(source: &impl Source, path: &Path, options: &Options) -> Result<Map, Error> {
-    read_as(source, path, options).map_err(|error| error.in_file(path))
+    read_as(source, path, options, Keeping).map_err(|error| error.in_file(path))
 }
 
 /// Reads the map at `path` on the disk to measure it: as [`read_map_contents_from`].
 ///
 /// # Errors
 /// As [`read_map_from`].
-pub fn read_map_contents(path: &Path, options: &Options) -> Result<Map<Contents>, Error> {
+pub fn read_map_contents(
+    path: &Path,
+    options: &Options,
+    visitor: &mut impl CellsVisitor,
+) -> Result<Map<Contents>, Error> {
     if bags::is_bag(path) {
         return last_map(path, options).map(Map::with);
     }
-    read_map_contents_from(&Disk, path, options)
+    read_map_contents_from(&Disk, path, options, visitor)
 }
 
-/// Reads the map at `path` of `source` to measure it: as [`read_map_from`], but the cells of images are counted and not
-/// kept.
+/// Reads the map at `path` of `source` to measure it: as [`read_map_from`], but the cells of images and of arrays of
+/// integers are counted, those of arrays of floats given to `visitor`, and neither kept.
 ///
 /// # Errors
 /// As [`read_map_from`].
@@ -56,8 +62,9 @@ pub fn read_map_contents_from(
     source: &impl Source,
     path: &Path,
     options: &Options,
+    visitor: &mut impl CellsVisitor,
 ) -> Result<Map<Contents>, Error> {
-    read_as(source, path, options).map_err(|error| error.in_file(path))
+    read_as(source, path, options, Visiting(visitor)).map_err(|error| error.in_file(path))
 }
 
 /// Reads the last map of a bag.
@@ -66,40 +73,113 @@ fn last_map(path: &Path, options: &Options) -> Result<Map, Error> {
     bags::last_map(path, &topic, options)
 }
 
-/// Reads a map whose cells go where `C` puts them.
-fn read_as<C: From<Cells> + Sink>(
+/// What becomes of the cells of a map.
+trait Target {
+    /// The form they take.
+    type Cells: Sink + From<Cells>;
+
+    /// Reads an array, compressed or not.
+    fn array(self, array: &mut Array<'_>, options: &Options) -> Result<Map<Self::Cells>, Error>;
+}
+
+/// Cells that are kept.
+struct Keeping;
+
+impl Target for Keeping {
+    type Cells = Cells;
+
+    fn array(self, array: &mut Array<'_>, options: &Options) -> Result<Map, Error> {
+        npy::read(&mut array.input, array.length, options)
+    }
+}
+
+/// Cells that are counted, or given to a visitor.
+struct Visiting<'a, V>(&'a mut V);
+
+impl<V: CellsVisitor> Target for Visiting<'_, V> {
+    type Cells = Contents;
+
+    fn array(self, array: &mut Array<'_>, options: &Options) -> Result<Map<Contents>, Error> {
+        let most = options.max_cells.unwrap_or(if array.compressed { MAX_COUNTED } else { u64::MAX });
+        npy::read_contents(&mut array.input, array.length, options, most, self.0)
+    }
+}
+
+/// The bytes of an `.npy` file, on its own or in an archive.
+struct Array<'a> {
+    input: &'a mut dyn Read,
+    length: u64,
+    compressed: bool,
+}
+
+/// Returns the file that is opened for `path`: that before the key of an array in `FILE.npz:KEY`.
+pub fn file_of(path: &Path) -> &Path {
+    npz::split(path).map_or(path, |(file, _)| file)
+}
+
+/// Opens the array at `path` of `source`, and has it read.
+fn with_array<T>(
+    source: &impl Source,
+    path: &Path,
+    read: impl FnOnce(&mut Array<'_>) -> Result<T, Error>,
+) -> Result<T, Error> {
+    let Opened { mut input, length } = open(source, file_of(path))?;
+    let Some((_, key)) = npz::split(path) else {
+        return read(&mut Array { input: &mut input, length, compressed: false });
+    };
+    let mut archive = npz::archive(input)?;
+    let mut file = npz::open(&mut archive, key)?;
+    let length = file.size();
+    read(&mut Array { input: &mut file, length, compressed: true })
+}
+
+/// Reads a map whose cells go where `target` puts them.
+fn read_as<T: Target>(
     source: &impl Source,
     path: &Path,
     options: &Options,
-) -> Result<Map<C>, Error> {
-    if options.unknown.is_some() && options.mode != Some(Mode::Probability) {
-        let message = "a grey level for unknown needs mode probability; give both or neither";
-        return Err(Error::new(ErrorKind::Options, message));
-    }
+    target: T,
+) -> Result<Map<T::Cells>, Error> {
     let name = path.file_name().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     let is = |endings: &[&str]| endings.iter().any(|&ending| name.ends_with(ending));
-    let Opened { input, length } = source.open(path)?;
     let mut map = if is(&[".yaml", ".yml"]) {
-        ros::read(source, path, input, options)?
-    } else if is(&[".npy"]) {
-        npy::read(input, length, options)?.with()
+        if options.unknown.is_some() && options.mode != Some(Mode::Probability) {
+            let message = "a grey level for unknown needs mode probability; give both or neither";
+            return Err(Error::new(ErrorKind::Options, message));
+        }
+        ros::read(source, path, open(source, path)?.input, options)?
+    } else if is(&[".npy"]) || npz::split(path).is_some() {
+        with_array(source, path, |array| target.array(array, options))?
     } else if is(&[".gridmap", ".gridmap.gz"]) {
-        gridmap::read(input, options)?.with()
-    } else if is(&[".mcap", ".db3", ".bag"]) {
-        return Err(Error::new(ErrorKind::Unsupported, "is a bag, whose last map is read from a disk only"));
-    } else if is(&[".pbstream"]) {
-        let message = "is a saved state of Cartographer, whose submaps are several grids, not one";
-        return Err(Error::new(ErrorKind::Unsupported, message));
-    } else if is(&[".pgm", ".png"]) {
-        let message = "is only the image of a ROS map; give the yaml file that describes it";
-        return Err(Error::new(ErrorKind::Unsupported, message));
+        if options.unknown.is_some() {
+            let message = "is an MRPT map, where no value can be given for unknown";
+            return Err(Error::new(ErrorKind::Unsupported, message));
+        }
+        gridmap::read(open(source, path)?.input, options)?.with()
     } else {
+        source.open(path)?;
+        if is(&IMAGES) {
+            let message = "is only the image of a ROS map; give the yaml file that describes it";
+            return Err(Error::new(ErrorKind::Unsupported, message).with_value(name));
+        }
+        if is(&[".mcap", ".db3", ".bag"]) {
+            let message = "is a bag, whose last map is read from a disk only";
+            return Err(Error::new(ErrorKind::Unsupported, message));
+        }
+        if is(&[".pbstream"]) {
+            let message = "is a saved state of Cartographer, whose submaps are several grids, not one";
+            return Err(Error::new(ErrorKind::Unsupported, message));
+        }
         let refused = Error::new(ErrorKind::Unsupported, "is no map file by its name");
         return Err(refused.with_value(name).allowing("; allowed are ", ENDINGS));
     };
-    map.files.push(path.to_owned());
+    map.files.push(file_of(path).to_owned());
     Ok(map)
 }
+
+/// The endings of images.
+const IMAGES: [&str; 12] =
+    [".pgm", ".png", ".bmp", ".ppm", ".pbm", ".pnm", ".jpg", ".jpeg", ".tif", ".tiff", ".gif", ".webp"];
 
 /// Reads the submaps of Cartographer's saved state at `path` on the disk: as [`read_submaps_from`].
 ///
@@ -140,8 +220,8 @@ pub fn read_particles_from<V: MapsVisitor>(
     options: &Options,
     visitor: V,
 ) -> Result<V::Output, Error> {
-    let read = |file: Opened<_>| npy::read_stack(file.input, file.length, options, visitor);
-    source.open(path).and_then(read).map_err(|error| error.in_file(path))
+    with_array(source, path, |array| npy::read_stack(&mut array.input, array.length, options, visitor))
+        .map_err(|error| error.in_file(path))
 }
 
 /// Reads the weights of particles from the `.npy` array at `path` on the disk.
@@ -157,8 +237,8 @@ pub fn read_weights(path: &Path, options: &Options) -> Result<Vec<f64>, Error> {
 /// # Errors
 /// As [`npy::read_weights`].
 pub fn read_weights_from(source: &impl Source, path: &Path, options: &Options) -> Result<Vec<f64>, Error> {
-    let read = |file: Opened<_>| npy::read_weights(file.input, file.length, options);
-    source.open(path).and_then(read).map_err(|error| error.in_file(path))
+    with_array(source, path, |array| npy::read_weights(&mut array.input, array.length, options))
+        .map_err(|error| error.in_file(path))
 }
 
 /// Reads the log of range scans at `path` on the disk: as [`read_scans_from`].

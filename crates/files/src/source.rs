@@ -8,7 +8,8 @@ use std::io::{self, BufRead, BufReader, Cursor, Seek};
 use std::path::{Path, PathBuf};
 
 /// The endings of map files, for messages.
-pub(crate) const ENDINGS: &str = ".yaml, .yml, .npy, .gridmap, .gridmap.gz, .mcap, .db3, .bag and .pbstream";
+pub(crate) const ENDINGS: &str =
+    ".yaml, .yml, .npy, .npz, .gridmap, .gridmap.gz, .mcap, .db3, .bag and .pbstream";
 
 /// A place that files are opened from by their names: the yaml file of a ROS map names another one.
 pub trait Source {
@@ -22,6 +23,22 @@ pub trait Source {
     /// # Errors
     /// An [`Error`] if there is none of that name, or it cannot be read; an [`io::Error`] becomes one by `?`.
     fn open(&self, path: &Path) -> Result<Opened<Self::Input<'_>>, Error>;
+}
+
+/// The beginning of what stands for a file that Git keeps elsewhere.
+const LFS_POINTER: &[u8] = b"version https://git-lfs";
+
+/// Opens a file, unless it only stands for one.
+///
+/// # Errors
+/// As [`Source::open`]; and [`ErrorKind::Unsupported`] for a Git LFS pointer.
+pub(crate) fn open<'a, S: Source>(source: &'a S, path: &Path) -> Result<Opened<S::Input<'a>>, Error> {
+    let mut opened = source.open(path)?;
+    if opened.input.fill_buf()?.starts_with(LFS_POINTER) {
+        let refused = Error::new(ErrorKind::Unsupported, "is a Git LFS pointer, not the file it stands for");
+        return Err(refused.followed_by("; fetch it with `git lfs pull`"));
+    }
+    Ok(opened)
 }
 
 /// A file that was opened.

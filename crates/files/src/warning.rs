@@ -45,6 +45,80 @@ pub enum Warning {
         /// The number of cells.
         count: u64,
     },
+    /// Cells are unknown because their pixels are not opaque.
+    TransparentReadAsUnknown {
+        /// The number of cells.
+        count: u64,
+    },
+    /// The alpha of pixels that are not opaque is averaged with their colour, as the loader does.
+    AlphaAveraged {
+        /// The number of cells.
+        count: u64,
+    },
+    /// A mode of three states is used for an image of many greys.
+    GreysThresholded {
+        /// The number of grey levels.
+        levels: usize,
+        /// The number of cells whose grey is neither black, white, nor the one most often used.
+        count: u64,
+        /// The grey that probably means unknown, of the image's own depth.
+        unknown: Option<u16>,
+    },
+    /// Thresholds are above 1, the largest occupancy.
+    ThresholdsAbove1 {
+        /// The threshold of free cells.
+        free: f64,
+        /// The threshold of occupied cells.
+        occupied: f64,
+    },
+    /// The threshold of free cells is not below that of occupied ones.
+    ThresholdsCross {
+        /// The threshold of free cells.
+        free: f64,
+        /// The threshold of occupied cells.
+        occupied: f64,
+        /// True if cells between them are free, false if they are occupied.
+        free_wins: bool,
+    },
+    /// A key of the yaml file occurs again, and its first value holds.
+    RepeatedKey {
+        /// The key.
+        key: &'static str,
+    },
+    /// Something follows the first document of the yaml file, and is not read.
+    MoreDocuments,
+    /// Comments of the yaml file are not UTF-8.
+    CommentsNotUtf8,
+    /// A tab of the yaml file is read as a space.
+    TabAsSpace {
+        /// The line, from 1.
+        line: u64,
+    },
+    /// Something follows the image in its file, and is passed over.
+    BytesAfterImage,
+    /// The header of a raw PGM ends in two bytes, of which the second is read as the first pixel.
+    PgmLineEnd,
+    /// Decoders of JPEG differ by a level.
+    JpegLevels,
+    /// No percentage is above 1, and some are 1: they may be states.
+    NoPercentageAbove1 {
+        /// The number of cells that are 1.
+        count: u64,
+    },
+    /// Cells are beside unknown by less than sums in floats are exact.
+    BesideUnknown {
+        /// The number of cells.
+        count: u64,
+    },
+    /// Cells of an array hold a grey, as a fraction of 255, that often means unknown.
+    OftenUnknownValue {
+        /// The grey of 255.
+        grey: u8,
+        /// The value, as the array has it.
+        value: f64,
+        /// The number of cells.
+        count: u64,
+    },
     /// nav2's loader may take the levels of an image of 16 bits for others by 1 of 255.
     SixteenBits,
     /// nav2's loader may take the levels of a PGM of this maximum value for others.
@@ -117,6 +191,7 @@ pub enum Warning {
 }
 
 impl fmt::Display for Warning {
+    #[expect(clippy::too_many_lines, reason = "a sentence for each")]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::OutOfRangeReadAsUnknown { count } => {
@@ -141,6 +216,77 @@ impl fmt::Display for Warning {
             Self::OftenUnknownObserved { grey, count } => {
                 write!(f, "{} of grey {grey} counted as observed", cells_in_words(count))
             }
+            Self::TransparentReadAsUnknown { count } => {
+                write!(f, "{} not opaque (transparent), read as unknown", are(count))
+            }
+            Self::AlphaAveraged { count } => write!(
+                f,
+                "{} not opaque (transparent): as in that loader, alpha is averaged with the colour",
+                are(count)
+            ),
+            Self::GreysThresholded { levels, count, .. } => write!(
+                f,
+                "the image has {levels} grey levels, {} between them that mode trinary reads as free, occupied or \
+                 unknown",
+                cells_in_words(count)
+            ),
+            Self::ThresholdsAbove1 { free, occupied } => {
+                let above = free.max(occupied);
+                write!(
+                    f,
+                    "thresholds above 1 (free_thresh {free}, occupied_thresh {occupied}): no cell is above 1"
+                )?;
+                if above > 2.0 {
+                    write!(f, "; if they are percentages, write {} for {above}", above / 100.0)?;
+                }
+                Ok(())
+            }
+            Self::ThresholdsCross { free, occupied, free_wins } => {
+                let state = if free_wins { "free" } else { "occupied" };
+                write!(
+                    f,
+                    "free_thresh {free} is not below occupied_thresh {occupied}: cells that both hold for are read \
+                     as {state}"
+                )
+            }
+            Self::RepeatedKey { key } => {
+                write!(f, "the key {key} occurs twice: its first value is read, as yaml-cpp does")
+            }
+            Self::MoreDocuments => {
+                write!(f, "the yaml file goes on after its first document, which alone is read")
+            }
+            Self::CommentsNotUtf8 => write!(f, "comments of the yaml file are not UTF-8, and passed over"),
+            Self::TabAsSpace { line } => {
+                write!(f, "line {line} of the yaml file has a tab, which is read as a space")
+            }
+            Self::BytesAfterImage => {
+                write!(f, "the file goes on after its image; what follows is passed over")
+            }
+            Self::PgmLineEnd => write!(
+                f,
+                "the PGM header has line ends of two bytes (CR LF): as in the loaders, the second is read as the first \
+                 pixel, and every pixel stands one to the right"
+            ),
+            Self::JpegLevels => {
+                write!(f, "decoders of JPEG differ by a grey level: a loader may read others")
+            }
+            Self::NoPercentageAbove1 { count } => {
+                let cells = cells_in_words(count);
+                write!(
+                    f,
+                    "no cell above 1: 0 and 1 are read as 0 % and 1 % ({cells}), not as free and occupied"
+                )
+            }
+            Self::BesideUnknown { count } => write!(
+                f,
+                "{} within some ulp of 1/2, as unknown cells that were averaged are, and counted as observed",
+                are(count)
+            ),
+            Self::OftenUnknownValue { grey, count, .. } => write!(
+                f,
+                "{} of {grey}/255, a grey that often means unknown, counted as observed",
+                cells_in_words(count)
+            ),
             Self::SixteenBits => {
                 write!(f, "the image has 16 bits: nav2_map_server may take its levels for others by 1 of 255")
             }
@@ -200,6 +346,11 @@ impl fmt::Display for Warning {
 /// Returns a count of cells in words.
 fn cells_in_words(count: u64) -> String {
     if count == 1 { "1 cell".to_owned() } else { format!("{count} cells") }
+}
+
+/// Returns a count of cells that are something.
+fn are(count: u64) -> String {
+    format!("{} {}", cells_in_words(count), if count == 1 { "is" } else { "are" })
 }
 
 /// Returns a percentage in words.

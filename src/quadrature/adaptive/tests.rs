@@ -7,6 +7,7 @@ use super::rule::Rule;
 use super::stretch::Stretch;
 use crate::real::Real;
 use alloc::vec::Vec;
+use approx::abs_diff_eq;
 use num_bigint::BigInt;
 use num_traits::{Signed, Zero};
 use std::string::String;
@@ -125,7 +126,10 @@ fn the_bands_are_coefficients_of_the_legendre_series() {
             let rounding = rounding(k);
             assert!(reading.value.abs() <= rounding, "{rule:?}, degree {k}: {reading:?}");
             if k + 3 >= high {
-                assert!((reading.difference - 6.0).abs() <= rounding, "{rule:?}, degree {k}: {reading:?}");
+                assert!(
+                    abs_diff_eq!(reading.difference, 6.0, epsilon = rounding),
+                    "{rule:?}, degree {k}: {reading:?}"
+                );
                 assert_eq!(reading.decay, 1.0);
             } else {
                 assert!(reading.difference <= rounding, "{rule:?}, degree {k}: {reading:?}");
@@ -135,9 +139,9 @@ fn the_bands_are_coefficients_of_the_legendre_series() {
         for (k, decay) in [(n - 4, 1.0), (n - 3, 0.25), (n - 1, 0.25), (n, 0.25)] {
             let both = |x: f64| 8.0 * legendre(k, x / 3.0) + 2.0 * legendre(high - 2, x / 3.0);
             let reading = rule.apply(&mut { both }, STRETCH);
-            assert!((reading.decay - decay).abs() <= rounding(high), "{rule:?}, degree {k}");
+            assert!(abs_diff_eq!(reading.decay, decay, epsilon = rounding(high)), "{rule:?}, degree {k}");
             assert!(
-                (reading.difference - 6.0 * 2.0 * decay).abs() <= 8.0 * rounding(high),
+                abs_diff_eq!(reading.difference, 6.0 * 2.0 * decay, epsilon = 8.0 * rounding(high)),
                 "{rule:?}, degree {k}"
             );
         }
@@ -154,8 +158,11 @@ fn the_polynomial_goes_on_to_the_ends() {
             let lower = if k % 2 == 0 { end } else { -end };
             // Roundings of values up to √(2k + 1), by weights whose magnitudes add to less than 16.
             let rounding = 16.0 * f64::from(3 * k * (2 * k + 1) + 8) * f64::EPSILON;
-            for (found, exact) in reading.ends.iter().zip([lower, end]) {
-                assert!((found - exact).abs() <= rounding, "{rule:?}, degree {k}: {found} for {exact}");
+            for (found, exact) in reading.ends.into_iter().zip([lower, end]) {
+                assert!(
+                    abs_diff_eq!(found, exact, epsilon = rounding),
+                    "{rule:?}, degree {k}: {found} for {exact}"
+                );
             }
         }
     }

@@ -15,15 +15,17 @@ impl<T: Real> Rigorous<T> {
     /// Encloses the integral of `f` from `from` to `to`: the negative of the one from `to` to `from`, 0 if they are
     /// equal.
     ///
-    /// `f` must be defined between the ends, but at single points. It is evaluated over intervals, and over
-    /// rectangles of the complex plane, to prove that it is analytic there. Where it is not, as `√x` at 0, panels are
-    /// bisected until their width times the range of `f` is small enough: singular ends cost little, singular points
-    /// inside as much as twice an end.
+    /// `f` must be defined between the ends, but at single points: the caller's part. It is evaluated over intervals,
+    /// and over rectangles of the complex plane, to prove that it is analytic there. Where it is not, as `√x` at 0,
+    /// panels are bisected until their width times the range of `f` is small enough: singular ends cost little, singular
+    /// points inside as much as twice an end.
     ///
     /// Error: none; the enclosure contains the integral (proved in [`integration`](crate::book::integration)).
     ///
-    /// Special cases: where `f` is not defined, [`Status::NotFinite`] names the stretch; where it has no bound,
-    /// [`Status::Unresolved`] does. The enclosure then has no bounds: `-inf` to `inf`.
+    /// Special cases: a panel on which `f` is not defined, or not on its middle half, is named by
+    /// [`Status::NotFinite`], one on which it has no bound by [`Status::Unresolved`]. The enclosure then has no bounds:
+    /// `-inf` to `inf`. A stretch without values elsewhere in a panel can pass unseen: a range is that of the part where
+    /// `f` is defined.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if an end is not finite, or a setting not as its function says; also if both tolerances

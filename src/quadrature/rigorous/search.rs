@@ -90,8 +90,8 @@ impl<F: Integrand> Search<'_, F> {
         let mut chooser = Chooser::new();
         let mut panels = vec![(self.from, self.to)];
         while let Some((a, b)) = panels.pop() {
-            // One evaluation is kept for each panel that waits: all of them are enclosed.
-            let limited = self.evaluations + panels.len() as u64 + MOST_EVALUATIONS > limit;
+            // Two ranges are kept for each panel that waits: all of them are enclosed.
+            let limited = self.evaluations + 2 * panels.len() as u64 + MOST_EVALUATIONS > limit;
             match self.panel(&mut chooser, a, b, left * SHARE, limited) {
                 Panel::Enclosed { value, status } => {
                     // What a panel does not use is left to those after it.
@@ -115,11 +115,15 @@ impl<F: Integrand> Search<'_, F> {
         // 1. The width times the range: "Panels".
         let length = Interval::constant(b) - Interval::constant(a);
         let range: Interval<f64> = self.range(a, b);
+        let undefined = Panel::Failed(Status::NotFinite { lower: a, upper: b });
         if range.is_empty() {
-            return Panel::Failed(Status::NotFinite { lower: a, upper: b });
+            return undefined;
         }
         let strip = length * range.into();
         if width(strip) <= allowed || limited {
+            if self.is_undefined_within(a, b) {
+                return undefined;
+            }
             let status = if width(strip) <= allowed { Status::Converged } else { Status::EvaluationLimit };
             return Panel::Enclosed { value: strip, status };
         }
@@ -127,7 +131,7 @@ impl<F: Integrand> Search<'_, F> {
         if let Some(choice) = chooser.choose(self.f, a, b, allowed / 2.0, &mut self.evaluations) {
             let value = gauss::integrate(self.f, a, b, &choice, &mut self.evaluations);
             if value.is_empty() {
-                return Panel::Failed(Status::NotFinite { lower: a, upper: b });
+                return undefined;
             }
             return Panel::Enclosed { value, status: Status::Converged };
         }
@@ -149,6 +153,9 @@ impl<F: Integrand> Search<'_, F> {
         if !strip.is_bounded() {
             return Panel::Failed(unresolved);
         }
+        if self.is_undefined_within(a, b) {
+            return undefined;
+        }
         Panel::Enclosed { value: strip, status: if can_be_cut { Status::Converged } else { unresolved } }
     }
 
@@ -156,6 +163,14 @@ impl<F: Integrand> Search<'_, F> {
     pub(super) fn range<T: Endpoint>(&mut self, a: f64, b: f64) -> Interval<T> {
         self.evaluations += 1;
         self.f.evaluate(Interval::constant(a).hull(Interval::constant(b)))
+    }
+
+    /// Returns true if the integrand is nowhere defined on the middle half of a panel: its range, that of the part where
+    /// it is defined, may be that of an end alone.
+    fn is_undefined_within(&mut self, a: f64, b: f64) -> bool {
+        let [from, to] = [0.75 * a + 0.25 * b, 0.25 * a + 0.75 * b];
+        // Between neighbouring floats there is no half.
+        a < from && from < to && to < b && self.range::<f64>(from, to).is_empty()
     }
 
     /// Returns true if roundings at one point make half of a range: then cutting does not help.

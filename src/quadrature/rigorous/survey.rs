@@ -63,8 +63,8 @@ pub(super) fn magnitude(
     // Of one sign on most of its panels the integral has that size; or it cancels, and some of the bound is left.
     let [lower, upper] = [Interval::lower, Interval::upper].map(|bound| total(&panels, bound));
     let most = total(&panels, Interval::magnitude);
-    let doubtful = if most.is_finite() { DOUBT * most } else { 0.0 };
-    by_points.max(lower).max(-upper).max(doubtful)
+    // Without a bound nothing is known: every panel that has one will do, to find those that have none.
+    if most.is_finite() { by_points.max(lower).max(-upper).max(DOUBT * most) } else { f64::MAX }
 }
 
 /// Returns break points that crowd where ranges leave most of `int |f|` open, the ends among them, in ascending order.

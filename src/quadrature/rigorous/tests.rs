@@ -8,6 +8,7 @@ use crate::estimate::Status;
 use crate::interval::{Interval, Toward, Wide};
 use crate::quadrature::Tolerance;
 use crate::scalar::{Integrand, Scalar};
+use approx::assert_relative_eq;
 use num_bigint::BigInt;
 
 /// `P_n(x 2^-127) 2^(127 n) n!`, by the recurrence `k P_k = (2k - 1) x P_(k-1) - (k - 1) P_(k-2)`.
@@ -126,13 +127,13 @@ fn the_estimate_is_about_the_magnitude() {
     }
     for (from, to) in [(0.5, 1.5), (-1.0, 2.0), (3.0, 3.125)] {
         let exact = core_math::exp(to) - core_math::exp(from);
-        assert!((estimate(&Exponential, from, to) / exact - 1.0).abs() < 1e-9);
+        assert_relative_eq!(estimate(&Exponential, from, to), exact, epsilon = 0.0, max_relative = 1e-9);
     }
     // What cancels is not taken for nothing: some of the crudest bound is left, `4 (2 · 8)`.
     let cancelled = estimate(&Cube, -2.0, 2.0);
     assert!(cancelled > 0.0 && cancelled <= 64.0 / f64::from(1 << 20), "{cancelled}");
     let larger = estimate(&Cube, -200.0, 200.0);
-    assert!((larger / cancelled / 1e8 - 1.0).abs() < 1e-6);
+    assert_relative_eq!(larger / cancelled, 1e8, epsilon = 0.0, max_relative = 1e-6);
 }
 
 /// Cut until floats end, or at `2^-120` of the whole.

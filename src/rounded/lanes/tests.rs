@@ -9,6 +9,7 @@ use crate::rounded::beyond_float::{self, Fixed};
 use crate::rounded::{approximate, normalised, shift_right};
 use crate::tally::ExactSum;
 use alloc::vec::Vec;
+use approx::abs_diff_eq;
 use core::sync::atomic::{AtomicU64, Ordering};
 use proptest::prelude::*;
 
@@ -135,7 +136,10 @@ fn the_series_has_the_coefficients_of_the_chapter() {
             [series::<T, true>, series::<T, false>].map(|series| series(T::nearest(b), T::nearest(y)))
         {
             // A dozen roundings of terms below 1.
-            assert!((found.widen() - exact).abs() < 16.0 * T::epsilon().widen(), "{b} {y}: {found} {exact}");
+            assert!(
+                abs_diff_eq!(found.widen(), exact, epsilon = 16.0 * T::epsilon().widen()),
+                "{b} {y}: {found} {exact}"
+            );
         }
     }
     for (b, y) in [(0.9375, 0.875), (-0.8125, 0.75), (0.375, -0.9375), (0.0, 0.5), (-0.5625, -0.8125)] {

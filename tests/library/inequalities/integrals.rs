@@ -1,6 +1,7 @@
 //! The limits and their series, and what Gauss's rules leave out.
 
 use super::search::{IN_F64, between, choice, in_ulps, inequalities, scaled};
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use core::f64::consts::{LN_2, PI};
 use mean_information::cell::entropy;
 use mean_information::elementary::{exp, ln};
@@ -184,10 +185,13 @@ inequalities! {
 #[test]
 fn the_coefficients_are_those_of_the_chapter() {
     let (phi, psi) = &*COEFFICIENTS;
-    assert!((phi[1] + PI).abs() < 1e-14 && (phi[2] - 4.0 * PI * PI / 6.0).abs() < 1e-13);
+    assert!(
+        abs_diff_eq!(phi[1], -PI, epsilon = 1e-14)
+            && abs_diff_eq!(phi[2], 4.0 * PI * PI / 6.0, epsilon = 1e-13)
+    );
     // ψ = 1 - s/2 + …: e^-s is 1 - s, φ ln φ is -s/2.
-    assert!((psi[0] - 1.0).abs() < 1e-15 && (psi[1] + PI).abs() < 1e-13);
+    assert!(abs_diff_eq!(psi[0], 1.0, epsilon = 1e-15) && abs_diff_eq!(psi[1], -PI, epsilon = 1e-13));
     // ln φ = -s/2 + s^2/24: φ ln φ is -s/2 + s^2/4 + s^2/24, and e^-s is 1 - s + s^2/2.
     let second = (0.5 - 0.25 - 1.0 / 24.0) * 4.0 * PI * PI;
-    assert!((psi[2] - second).abs() < 1e-6, "{} {second}", psi[2]);
+    assert_abs_diff_eq!(psi[2], second, epsilon = 1e-6);
 }

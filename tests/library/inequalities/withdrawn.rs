@@ -2,7 +2,7 @@
 
 use super::cells::pooled;
 use super::rooms::room;
-use super::search::{Inequality, choice, in_ulps, occupancy};
+use super::search::{Inequality, between, choice, in_ulps, occupancy, scaled};
 use crate::bounds::cartesian;
 use mean_information::Tally;
 use mean_information::limit::{Weight, closed_form};
@@ -86,6 +86,24 @@ const WITHDRAWN: &[Inequality] = &[
         },
     },
 ];
+
+/// What is left of the second one: a measurement, that no theorem states.
+#[test]
+fn averaging_lowers_the_mean_where_cells_are_small_beside_the_noise() {
+    let left = Inequality {
+        test: "averaging only lowers the mean information of a room with small cells",
+        statement: ("grids", "Averages"),
+        dimensions: 4,
+        rounding: 1e-12,
+        ratio: |u| {
+            let (z, alpha) = (between(u[0], 0.3, 9.0), scaled(u[1], 3.0, 100.0));
+            let sensor = GaussianSensor::new(z, z / alpha).unwrap();
+            let h = sensor.sigma() * scaled(u[2], 0.1, 1.0);
+            Some(averaged(sensor, h, 2 << choice(u[3], 3)) / averaged(sensor, h, 1))
+        },
+    };
+    left.assert_holds(200, 100);
+}
 
 #[test]
 fn a_search_finds_what_does_not_hold() {

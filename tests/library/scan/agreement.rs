@@ -1,6 +1,7 @@
 //! Agreement and contradictions: against sums over single readings, and relations that change no bit.
 
 use super::{MAXIMUM, SIGMA, beam, gaussian, pose, scan};
+use approx::abs_diff_eq;
 use mean_information::scan::{Beam, Layer, Pose, Scan, ScanMap};
 use mean_information::sensor::GaussianSensor;
 use proptest::collection::vec;
@@ -51,13 +52,13 @@ proptest! {
             held += sum.abs();
             told += magnitudes;
             // 4 readings of up to 3.5 nats, each sum rounded thrice.
-            prop_assert!((contradiction - (magnitudes - sum.abs())).abs() <= 14.0 * 4.0 * f64::EPSILON);
+            prop_assert!(abs_diff_eq!(contradiction, magnitudes - sum.abs(), epsilon = 14.0 * 4.0 * f64::EPSILON));
             let [free, occupied] = [of_cell().any(|l| l < 0.0), of_cell().any(|l| l > 0.0)];
             prop_assert_eq!(contradiction > 0.0, free && occupied);
         }
         let agreement = map.agreement().unwrap();
         let expected = if told == 0.0 { 1.0 } else { held / told };
-        prop_assert!((agreement - expected).abs() <= 40_004.0 * f64::EPSILON, "{} {}", agreement, expected);
+        prop_assert!(abs_diff_eq!(agreement, expected, epsilon = 40_004.0 * f64::EPSILON), "{} {}", agreement, expected);
         prop_assert!((0.0..=1.0).contains(&agreement));
         if layer.cells().iter().all(|&contradiction| contradiction == 0.0) {
             prop_assert_eq!(agreement, 1.0);

@@ -1,6 +1,7 @@
 //! The block jackknife: against its formula in floats, and what changes no bit.
 
 use super::super::common::occupancy;
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use mean_information::scan::{Difference, blocks};
 use mean_information::{Real, Tally};
 use proptest::collection::vec;
@@ -24,7 +25,7 @@ proptest! {
         let expected = mean_information::elementary::sqrt((k - 1.0) / k * squares);
         // Sums of K terms: K/2 ulp each; what is short of them by the rounding of the inputs.
         let tolerance = expected * k * f64::EPSILON + mean_information::elementary::sqrt(k) * (k + 2.0) * f64::EPSILON;
-        prop_assert!((found.standard_error() - expected).abs() <= tolerance, "{} {}", found.standard_error(), expected);
+        prop_assert!(abs_diff_eq!(found.standard_error(), expected, epsilon = tolerance), "{} {}", found.standard_error(), expected);
         prop_assert_eq!((found.value(), found.blocks()), (theta[0], without.len()));
     }
 
@@ -69,7 +70,7 @@ fn two_blocks_have_half_their_distance() {
         terms.into_iter().sum::<f64>() / 3.0
     };
     let [first, second] = [exact(0.75) - exact(0.125), exact(0.625) - exact(0.25)];
-    assert!((found.standard_error() - (first - second).abs() / 2.0).abs() < 1e-15);
+    assert_abs_diff_eq!(found.standard_error(), (first - second).abs() / 2.0, epsilon = 1e-15);
     assert!(first.abs() > 0.05 && second.abs() > 0.03, "{first} {second}");
 }
 

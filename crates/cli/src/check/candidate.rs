@@ -86,6 +86,8 @@ pub(super) struct Candidate {
     pub(super) elsewhere: Option<(usize, usize)>,
     /// The most that the score of a cause can be that is no trap.
     pub(super) weight: f64,
+    /// True if it gives the very values of the wrong answers: where it explains nearly all, nothing else is wrong.
+    pub(super) has_values: bool,
 }
 
 /// Returns the indices of the cases for which a condition holds.

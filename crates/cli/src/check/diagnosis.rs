@@ -28,7 +28,7 @@ const TRAP_WIDTH: f64 = f64::EPSILON * 4_294_967_296.0; // 2^-20
 const LIFT: usize = 2;
 /// The weight of a flag: where failures are says less than what they are.
 const FLAG_WEIGHT: f64 = 0.7;
-/// After a trap that explains so many of the failures no other cause is needed.
+/// After a trap, or a mistake that is fitted, that explains so many of the failures no other cause is needed.
 const WHOLE: f64 = 0.9;
 
 /// A cause: what some failures have in common.
@@ -105,7 +105,7 @@ fn rank(cases: &[Case<'_>], candidates: Vec<Candidate>) -> Vec<Cause> {
         // Equals cannot be told apart.
         let lesser = last.replace((role, score)) != Some((role, score));
         let redundant = lesser && (whole || candidate.explained.iter().all(|index| known.contains(index)));
-        whole |= candidate.kind == Kind::Trap && recall(&candidate) >= WHOLE;
+        whole |= candidate.has_values && recall(&candidate) >= WHOLE;
         known.extend(&candidate.explained);
         let Candidate { kind, name, note, explained, tests, elsewhere, .. } = candidate;
         Cause { role, kind, name, note, explained: explained.len(), tests, elsewhere, score, redundant }
@@ -127,6 +127,7 @@ fn trap(cases: &[Case<'_>], name: &str, note: &str) -> Option<Candidate> {
         tests: tests.count(),
         elsewhere: None,
         weight: 1.0,
+        has_values: true,
     })
 }
 
@@ -184,6 +185,7 @@ fn flag(cases: &[Case<'_>], name: &str, note: &str) -> Option<Candidate> {
         tests,
         elsewhere: Some(elsewhere),
         weight: FLAG_WEIGHT,
+        has_values: false,
     })
 }
 

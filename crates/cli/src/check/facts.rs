@@ -36,6 +36,7 @@ pub(super) fn facts(cases: &[Case<'_>]) -> Vec<Candidate> {
         constant(cases),
         factor(cases),
         missing_sign(cases),
+        missing_sign_of_entropy(cases),
         complement(cases),
         few_ulp(cases),
         twice(cases),
@@ -50,7 +51,8 @@ pub(super) fn facts(cases: &[Case<'_>]) -> Vec<Candidate> {
 /// Creates a fact that shows on no test but those it explains.
 pub(super) fn fact(name: &str, note: String, weight: f64, explained: Vec<usize>) -> Candidate {
     let tests = explained.len();
-    Candidate { kind: Kind::Fact, name: name.to_owned(), note, explained, tests, elsewhere: None, weight }
+    let (kind, name) = (Kind::Fact, name.to_owned());
+    Candidate { kind, name, note, explained, tests, elsewhere: None, weight, has_values: false }
 }
 
 type PlainFact = (&'static str, &'static str, fn(Case<'_>) -> bool);
@@ -259,6 +261,13 @@ const KNOWN_FACTORS: &[(f64, &str)] = &[
 fn complement(cases: &[Case<'_>]) -> Option<Candidate> {
     let note = "answers 1 less the exact result: entropy for information, occupied for free".to_owned();
     followed(cases, "complement", note, |number| (number.value + number.error.exact - 1.0).abs() <= SAME)
+}
+
+/// Detects 1 less an entropy that is negative: 2 less the exact information.
+fn missing_sign_of_entropy(cases: &[Case<'_>]) -> Option<Candidate> {
+    let note = "answers 2 less the exact result: 1 - H where the minus sign before the sum of H is missing"
+        .to_owned();
+    followed(cases, "missing-sign", note, |number| (number.value + number.error.exact - 2.0).abs() <= SAME)
 }
 
 /// Detects answers that miss by rounding.

@@ -11,7 +11,9 @@ use mean_information::Real;
 use mean_information::expected::{Hypotheses, weighted_mean};
 use mean_information::map::Grid;
 use mean_information_files::npy::MapsVisitor;
-use mean_information_files::{ArrayEncoding, MAX_CELLS, Options, Readable, read_particles, read_weights};
+use mean_information_files::{
+    ArrayEncoding, MAX_CELLS, Options, Readable, file_of, read_particles, read_weights,
+};
 use std::path::PathBuf;
 
 /// The arguments of `meaninfo emmi`.
@@ -50,13 +52,36 @@ impl Arguments {
             &options,
             Expecting { weights: &weights, max_cells: self.max_cells },
         )?;
-        let expected = expected.map_err(|error| Failure::file(&self.weights, error.to_string()))?;
+        let expected = expected.map_err(|error| self.refused(error))?;
         let name = self.particles.display().to_string();
         let report = Emmi { name, weights, resolution: self.resolution, expected };
         let mut files = Files::new();
-        files.read([self.particles.clone(), self.weights.clone()]);
+        files.read([&self.particles, &self.weights].map(|path| file_of(path).to_owned()));
         self.writing.write(&report, files)?;
         Ok(Status::Done)
+    }
+}
+
+impl Arguments {
+    /// Creates the failure of weights that do not go with the particles, or are none.
+    fn refused(&self, error: mean_information::Error) -> Failure {
+        use mean_information::Error as Refused;
+        let help = match error {
+            Refused::WeightCount { given, items } => {
+                let particles = self.particles.display();
+                let message = format!(
+                    "has {given} weights, but {particles} has {items} particles; allowed is one for each"
+                );
+                return Failure::file(&self.weights, message);
+            }
+            Refused::Item { value, .. } if value < 0.0 => {
+                "; if they are logarithms, np.exp(w - w.max()) makes weights of them"
+            }
+            Refused::Item { value, .. } if value.is_nan() => "; np.nan_to_num(w) makes 0 of NaN",
+            _ => "",
+        };
+        let words = mean_information_files::Error::from(error);
+        Failure::file(&self.weights, format!("{}{help}", words.message()))
     }
 }
 
@@ -86,7 +111,7 @@ impl MapsVisitor for Expecting<'_> {
         progress.begin("expected map");
         // The particles of a file are all of one size.
         let size = maps.first().map_or([0; 2], |map| [map.width(), map.height()]);
-        let measures = Measures::of_expected(size, &hypotheses.expected_tally()?);
+        let measures = Measures::of_tally(size, &hypotheses.expected_tally()?);
         progress.done();
         let mut particles = Vec::with_capacity(maps.len());
         for (index, map) in maps.iter().enumerate() {

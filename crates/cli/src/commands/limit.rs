@@ -86,12 +86,14 @@ impl Arguments {
     }
 
     fn limit<T: Real + FromStr>(&self) -> Result<Limit, Failure> {
-        let given = |name: &str, text: &str| {
-            positive::<T>(text).map_err(|what| Failure::Usage(format!("--{name} {text}: {what}")))
+        // In clap's words, as where it parses: here the format is chosen by another option.
+        let given = |option: &str, text: &str| {
+            let refused = |what| Failure::Usage(format!("invalid value '{text}' for '--{option}': {what}"));
+            positive::<T>(text).map_err(refused)
         };
         let refused = |error: Error| Failure::Usage(error.to_string());
-        let (range, sigma) = (given("range", &self.range)?, given("sigma", &self.sigma)?);
-        let tolerance = self.tolerance.as_ref().map(|text| given("tolerance", text)).transpose()?;
+        let (range, sigma) = (given("range <Z>", &self.range)?, given("sigma <S>", &self.sigma)?);
+        let tolerance = self.tolerance.as_ref().map(|text| given("tolerance <T>", text)).transpose()?;
         let sensor = GaussianSensor::new(range, sigma).map_err(refused)?;
         let result = match self.method {
             Method::ClosedForm => {

@@ -2,7 +2,7 @@
 
 use super::Status;
 use crate::failure::Failure;
-use crate::measures::{Measures, NotMeaningful};
+use crate::measures::{Measures, NotMeaningful, Sums};
 use crate::output::{Files, Number, Record, Report, Value, Writing, short, table, with_notes, wrapped};
 use crate::plots::{self, HeatMap};
 use crate::progress::Progress;
@@ -10,13 +10,14 @@ use crate::reading::{Reading, in_words};
 use crate::submaps;
 use clap::Args;
 use mean_information_files::{Map, read_map, read_map_contents};
+use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
 /// The arguments of `meaninfo map`.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// Maps: ROS .yaml (with its .pgm or .png), .npy, MRPT .gridmap or .gridmap.gz; or bags, .mcap, .db3, .bag or the
-    /// folder of one, whose last map is measured; or Cartographer's saved states, .pbstream.
+    /// Maps: ROS .yaml (with its image), .npy, FILE.npz:KEY, MRPT .gridmap or .gridmap.gz; or bags, .mcap, .db3, .bag or
+    /// the folder of one, whose last map is measured; or Cartographer's saved states, .pbstream.
     #[arg(value_name = "FILE", required = true)]
     maps: Vec<PathBuf>,
     /// Draw the information of every cell of the one map given to this PNG file.
@@ -25,6 +26,9 @@ pub struct Arguments {
     /// Give each submap of a saved state a row, in place of one for all.
     #[arg(long)]
     submaps: bool,
+    /// Measure the maps that can be read even if others cannot; the exit status is 2 still.
+    #[arg(long)]
+    keep_going: bool,
     #[command(flatten)]
     reading: Reading,
     #[command(flatten)]
@@ -42,38 +46,68 @@ impl Arguments {
                 )));
             }
         }
-        let mut files = Files::new();
-        let mut measured = Vec::with_capacity(self.maps.len());
-        let options = self.reading.options();
         let progress = Progress::new(self.maps.len());
-        for path in &self.maps {
-            progress.begin(&path.display().to_string());
-            // Only a picture needs the cells themselves.
-            if self.heat_map.is_none() && submaps::is_state(path) {
-                for (name, map) in submaps::read(path, self.submaps, &options)? {
-                    let measures = Measures::of_counts(&map.cells);
-                    let row = MeasuredMap::new(path, map, measures, &mut files);
-                    measured.push(MeasuredMap { name, is_rectangle: self.submaps, ..row });
-                }
+        // Threads share the files; the results stay in order.
+        let results: Vec<_> = self
+            .maps
+            .par_iter()
+            .map(|path| {
+                progress.begin(&path.display().to_string());
+                let measured = self.measure(path);
                 progress.done();
-                continue;
-            }
-            let row = if let Some(picture) = &self.heat_map {
-                let map = read_map(path, &options)?;
-                let measures = Measures::of(&map.cells);
-                files.add(picture, drawn(path, &map, &measures)?);
-                MeasuredMap::new(path, map, measures, &mut files)
-            } else {
-                let map = read_map_contents(path, &options)?;
-                let measures = Measures::of_contents(&map.cells);
-                MeasuredMap::new(path, map, measures, &mut files)
-            };
-            measured.push(row);
-            progress.done();
-        }
+                measured
+            })
+            .collect();
         drop(progress);
-        self.writing.write(&MeasuredMaps(measured), files)?;
-        Ok(Status::Done)
+
+        let mut files = Files::new();
+        let (mut measured, mut failures) = (Vec::with_capacity(results.len()), Vec::new());
+        for result in results {
+            match result {
+                Ok(rows) => {
+                    for mut map in rows {
+                        files.read(std::mem::take(&mut map.files));
+                        if let (Some(path), Some(picture)) = (&self.heat_map, map.picture.take()) {
+                            files.add(path, picture);
+                        }
+                        measured.push(map);
+                    }
+                }
+                Err(failure) => failures.push(failure),
+            }
+        }
+        if failures.is_empty() || (self.keep_going && !measured.is_empty()) {
+            self.writing.write(&MeasuredMaps(measured), files)?;
+        }
+        match failures.len() {
+            0 => Ok(Status::Done),
+            1 => Err(failures.remove(0)),
+            _ => Err(Failure::Several(failures)),
+        }
+    }
+
+    /// Measures one map, or each submap of a saved state, and draws it if a picture is wanted.
+    fn measure(&self, path: &Path) -> Result<Vec<MeasuredMap>, Failure> {
+        let options = self.reading.options();
+        // Only a picture needs the cells themselves.
+        if self.heat_map.is_some() {
+            let map = read_map(path, &options)?;
+            let measures = Measures::of(&map.cells).noticing(&map.warnings);
+            let picture = drawn(path, &map, &measures)?;
+            return Ok(vec![MeasuredMap::new(path, map, measures, Some(picture))]);
+        }
+        if submaps::is_state(path) {
+            let measured = |(name, map): (String, Map<_>)| {
+                let measures = Measures::of_counts(&map.cells).noticing(&map.warnings);
+                let row = MeasuredMap::new(path, map, measures, None);
+                MeasuredMap { name, is_rectangle: self.submaps, ..row }
+            };
+            return Ok(submaps::read(path, self.submaps, &options)?.into_iter().map(measured).collect());
+        }
+        let mut sums = Sums::default();
+        let map = read_map_contents(path, &options, &mut sums)?;
+        let measures = Measures::of_contents(&map.cells, &sums).noticing(&map.warnings);
+        Ok(vec![MeasuredMap::new(path, map, measures, None)])
     }
 }
 
@@ -93,15 +127,18 @@ struct MeasuredMap {
     /// Whether its cells lie in one rectangle: submaps together do not.
     is_rectangle: bool,
     warnings: Vec<String>,
+    /// The files that it was read from.
+    files: Vec<PathBuf>,
+    picture: Option<Vec<u8>>,
 }
 
 impl MeasuredMap {
-    fn new<C>(path: &Path, map: Map<C>, measures: Measures, files: &mut Files) -> Self {
-        files.read(map.files);
+    fn new<C>(path: &Path, map: Map<C>, measures: Measures, picture: Option<Vec<u8>>) -> Self {
         let mut warnings = in_words(&map.warnings);
         warnings.extend(measures.not_meaningful.map(|why| why.warning().to_owned()));
-        let (name, resolution) = (path.display().to_string(), map.resolution);
-        Self { name, resolution, measures, is_rectangle: true, warnings }
+        let Map { resolution, files, .. } = map;
+        let name = path.display().to_string();
+        Self { name, resolution, measures, is_rectangle: true, warnings, files, picture }
     }
 
     fn record(&self) -> Record {

@@ -10,6 +10,7 @@ mod paper;
 mod port;
 mod simulate;
 mod sweep;
+mod trajectory;
 
 use crate::failure::Failure;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
@@ -48,6 +49,9 @@ pub enum Command {
     Map(map::Arguments),
     /// The mean information of the maps of a bag, one after the other as they were recorded.
     Bag(bag::Arguments),
+    /// Which trajectory makes the most consistent map of these scans: the mean information and the agreement of the map of each,
+    /// without ground truth.
+    Trajectory(Box<trajectory::Arguments>),
     /// The mean information of a map against its resolution, by averaging cells 2 x 2, 4 x 4, ...; what lies beyond the
     /// map's edge is unknown.
     Sweep(sweep::Arguments),
@@ -77,6 +81,7 @@ impl Command {
         match self {
             Self::Map(arguments) => arguments.run(),
             Self::Bag(arguments) => arguments.run(),
+            Self::Trajectory(arguments) => arguments.run(),
             Self::Sweep(arguments) => arguments.run(),
             Self::Limit(arguments) => arguments.run(),
             Self::Converge(arguments) => arguments.run(),

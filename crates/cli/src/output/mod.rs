@@ -2,6 +2,7 @@
 
 mod files;
 mod number;
+mod page;
 mod record;
 mod standard_output;
 mod table;
@@ -11,6 +12,7 @@ mod xml;
 pub use files::Files;
 pub use number::Number;
 pub(crate) use number::{decimal_exponent, short};
+pub(crate) use page::page;
 pub use record::{Record, Value};
 pub use table::{folded, table, text_table, with_notes, wrapped};
 pub use writing::{Writing, write_text};

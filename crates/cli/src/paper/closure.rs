@@ -5,7 +5,7 @@
 
 use super::{Claim, Figure, Section};
 use crate::failure::Failure;
-use crate::plots::{Chart, Colour, Curve, MapPanel, Panel, Scale, Sheet, Svg, panels};
+use crate::plots::{Chart, Colour, Curve, MapPanel, Marks, Panel, Scale, Sheet, Svg, panels};
 use crate::simulation::{Filter, Journey, Random, RoomName, Scanner, Settings, trajectory::Motion};
 use mean_information::Error;
 use mean_information::elementary::sqrt;
@@ -147,7 +147,7 @@ impl Series {
         let curve = |name: &str, colour, of: fn(&Step) -> f64| Curve {
             name: name.to_owned(),
             colour,
-            dots: true,
+            marks: Marks::Each,
             points: (0_u32..).map(f64::from).zip(self.steps.iter().map(of)).collect(),
         };
         let panel = |vertical, curves| Panel {

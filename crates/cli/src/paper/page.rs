@@ -1,29 +1,15 @@
 //! The page: text, figures and table in one file that needs no other.
 
 use super::{Claim, Figure, Paper, Verdict};
-use crate::output::escaped;
-
-const STYLE: &str = include_str!("page.css");
+use crate::output::{self, escaped};
 
 pub(super) fn page(paper: &Paper) -> String {
     let figures: String = paper.figures.iter().map(figure).collect();
     let claims: String = paper.claims.iter().map(claim).collect();
     let count = |verdict| paper.claims.iter().filter(|claim| claim.verdict == verdict).count();
     let [pass, corrected, fail] = [Verdict::Pass, Verdict::Corrected, Verdict::Fail].map(count);
-    format!(
-        r##"<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8"/>
-<meta name="viewport" content="width=device-width, initial-scale=1"/>
-<title>The mean information of occupancy maps, reproduced</title>
-<style>
-{STYLE}</style>
-</head>
-<body>
-<main>
-<h1>The mean information of occupancy maps, reproduced</h1>
-<p>The figures and claims of J.-L. Blanco, <cite>Derivation of an Expression for the Mean Information Maximum Value</cite>
+    let body = format!(
+        r##"<p>The figures and claims of J.-L. Blanco, <cite>Derivation of an Expression for the Mean Information Maximum Value</cite>
 (technical report, University of Malaga), computed again by <code>meaninfo paper</code>. Maps are made of simulated scans;
 white is free, black is occupied, blue-grey is unknown. Every number on this page is computed as the page is made, and is the
 same on every run and machine.</p>
@@ -37,12 +23,10 @@ same on every run and machine.</p>
 {claims}</tbody>
 </table>
 </section>
-</main>
-</body>
-</html>
 "##,
         paper.claims.len()
-    )
+    );
+    output::page("The mean information of occupancy maps, reproduced", &body)
 }
 
 fn figure(figure: &Figure) -> String {

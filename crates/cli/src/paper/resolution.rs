@@ -2,7 +2,7 @@
 
 use super::{Claim, Figure, Section};
 use crate::failure::Failure;
-use crate::plots::{Chart, Colour, Curve, MapPanel, Panel, Scale, Sheet, Svg, panels};
+use crate::plots::{Chart, Colour, Curve, MapPanel, Marks, Panel, Scale, Sheet, Svg, panels};
 use crate::simulation::{Journey, RoomName, Scanner, insert};
 use mean_information::map::Grid;
 use mean_information::map::encoding::LogOdds;
@@ -64,7 +64,7 @@ impl Sizes {
 
     fn curve(&self, name: &str, colour: Colour, of: fn(&Tally<f64>) -> f64) -> Curve {
         let points = self.0.iter().rev().map(|(size, tally)| (*size, of(tally))).collect();
-        Curve { name: name.to_owned(), colour, dots: true, points }
+        Curve { name: name.to_owned(), colour, marks: Marks::Each, points }
     }
 }
 

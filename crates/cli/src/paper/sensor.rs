@@ -2,7 +2,7 @@
 
 use super::{Claim, Figure, Section};
 use crate::failure::Failure;
-use crate::plots::{Chart, Colour, Curve, Panel, Scale, Sheet, Svg};
+use crate::plots::{Chart, Colour, Curve, Marks, Panel, Scale, Sheet, Svg};
 use mean_information::Real;
 use mean_information::sensor::{GaussianSensor, InverseSensorModel};
 
@@ -25,7 +25,7 @@ pub(super) fn section() -> Result<Section, Failure> {
             curves: vec![Curve {
                 name: "inverse sensor model, Eq. 5".to_owned(),
                 colour: Colour::Blue,
-                dots: false,
+                marks: Marks::None,
                 points,
             }],
             marks: Vec::new(),

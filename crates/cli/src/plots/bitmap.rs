@@ -33,6 +33,15 @@ impl Bitmap {
         }
     }
 
+    /// Copies another picture, its upper left corner at this place; what lies outside is left out.
+    pub(super) fn place(&mut self, other: &Self, [left, top]: [u32; 2]) {
+        for (y, row) in (top as i32..).zip(other.pixels.chunks(other.size.0.max(1) as usize)) {
+            for (x, &colour) in (left as i32..).zip(row) {
+                self.paint(x, y, colour);
+            }
+        }
+    }
+
     /// Returns the bytes of its PNG file.
     pub(super) fn png(&self) -> Result<Vec<u8>, EncodingError> {
         let mut bytes = Vec::new();

@@ -3,6 +3,7 @@
 use super::axis::{Axis, power_of_ten};
 use super::drawing::{Drawing, LABEL};
 use super::frame::{Side, curve, frame, legend};
+use super::marks::Marks;
 use super::scale::{logarithmic_ticks, ticks};
 use crate::output::short;
 use plotters::coord::Shift;
@@ -58,12 +59,12 @@ pub struct Panel {
 /// Points that are connected.
 #[derive(Debug)]
 pub struct Curve {
-    /// The name in the legend.
+    /// The name in the legend; empty if it has none there.
     pub name: String,
     /// The colour.
     pub colour: Colour,
-    /// True if each point gets a dot.
-    pub dots: bool,
+    /// The marks on its points.
+    pub marks: Marks,
     /// The points, from left to right.
     pub points: Vec<(f64, f64)>,
 }
@@ -77,6 +78,12 @@ pub enum Colour {
     Orange,
     /// The third.
     Grey,
+    /// The fourth.
+    Green,
+    /// The fifth.
+    Purple,
+    /// The sixth.
+    Brown,
 }
 
 impl Colour {
@@ -85,6 +92,9 @@ impl Colour {
             Self::Blue => RGBColor(0, 90, 170),
             Self::Orange => RGBColor(190, 75, 0),
             Self::Grey => RGBColor(120, 120, 120),
+            Self::Green => RGBColor(0, 130, 90),
+            Self::Purple => RGBColor(140, 60, 160),
+            Self::Brown => RGBColor(125, 85, 20),
         }
     }
 }
@@ -147,7 +157,9 @@ impl<const PANELS: usize> Chart<PANELS> {
         let own = || panel.curves.iter().flat_map(|curve| &curve.points);
         let horizontal = self.scale.axis(all().map(|&(x, _)| self.scale.place(x)), MARGINS[0], 0.0);
         // The legend takes a part of the height; of the points' span, that much more.
-        let part = (LEGEND[0] * panel.curves.len() as f64 + LEGEND[1]) / PLOT_HEIGHT;
+        let named = panel.curves.iter().filter(|curve| !curve.name.is_empty()).count();
+        let legend_height = if named == 0 { 0.0 } else { LEGEND[0] * named as f64 + LEGEND[1] };
+        let part = legend_height / PLOT_HEIGHT;
         let free = part / (1.0 - part) * (1.0 + 2.0 * MARGINS[1]);
         let vertical = panel.scale.axis(own().map(|&(_, y)| panel.scale.place(y)), MARGINS[1], free);
         let (bottom, top) = (vertical.range.start, vertical.range.end);
@@ -167,11 +179,11 @@ impl<const PANELS: usize> Chart<PANELS> {
             let foot = EmptyElement::at((x, bottom + 0.08 * (top - bottom)));
             chart.draw_series([foot + Text::new(name, (away, 0), style)])?;
         }
-        for Curve { name, colour, dots, points } in &panel.curves {
+        for Curve { name, colour, marks, points } in &panel.curves {
             let points: Vec<_> =
                 points.iter().map(|&(x, y)| (self.scale.place(x), panel.scale.place(y))).collect();
-            curve(&mut chart, name, colour.rgb(), *dots, &points)?;
+            curve(&mut chart, name, colour.rgb(), *marks, &points)?;
         }
-        legend(&mut chart)
+        if named == 0 { Ok(()) } else { legend(&mut chart) }
     }
 }

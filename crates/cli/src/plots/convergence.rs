@@ -5,6 +5,7 @@ use super::axis::Axis;
 use super::chart::Colour;
 use super::drawing::Drawing;
 use super::frame::{Side, curve, frame, legend};
+use super::marks::Marks;
 use super::scale::logarithmic_ticks;
 use crate::convergence::{Convergence, GridKind, Series};
 use crate::output::{decimal_exponent, short};
@@ -125,7 +126,7 @@ impl Drawing for ConvergencePlot<'_> {
             let mut points: Vec<_> =
                 series.rows.iter().map(|row| (libm::log10(row.resolution), row.mean_information)).collect();
             points.sort_by(|a, b| a.0.total_cmp(&b.0));
-            curve(&mut chart, &format!("{} grid", series.kind.adjective()), colour, true, &points)?;
+            curve(&mut chart, &format!("{} grid", series.kind.adjective()), colour, Marks::Each, &points)?;
         }
         legend(&mut chart)
     }

@@ -2,6 +2,7 @@
 
 use super::axis::Axis;
 use super::drawing::LABEL;
+use super::marks::Marks;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
@@ -42,23 +43,33 @@ pub(super) fn frame<'a, B: DrawingBackend>(
     Ok(frame)
 }
 
-/// Draws a line through the points, with dots on them if wanted, and its line in the legend.
+/// Draws a line through the points, with its marks, and its line in the legend, if it has a name.
 pub(super) fn curve<'a, B: DrawingBackend + 'a>(
     frame: &mut Frame<'a, B>,
     name: &str,
     colour: RGBColor,
-    dots: bool,
+    marks: Marks,
     points: &[(f64, f64)],
 ) -> Result<(), Failure<B::ErrorType>> {
-    frame.draw_series(LineSeries::new(points.iter().copied(), colour.stroke_width(2)))?.label(name).legend(
-        move |at| {
+    let line = frame.draw_series(LineSeries::new(points.iter().copied(), colour.stroke_width(2)))?;
+    if !name.is_empty() {
+        line.label(name).legend(move |at| {
             EmptyElement::at(at)
                 + PathElement::new([(0, 0), (20, 0)], colour.stroke_width(2))
-                + Circle::new((10, 0), if dots { 4 } else { 0 }, colour.filled())
-        },
-    );
-    if dots {
-        frame.draw_series(points.iter().map(|&point| Circle::new(point, 4, colour.filled())))?;
+                + Circle::new((10, 0), if marks == Marks::Each { 4 } else { 0 }, colour.filled())
+                + Polygon::new(marks.outline((10, 0)), colour.filled())
+        });
+    }
+    match marks {
+        Marks::None => {}
+        Marks::Each => {
+            frame.draw_series(points.iter().map(|&point| Circle::new(point, 4, colour.filled())))?;
+        }
+        Marks::Spaced(shape) => {
+            let marked =
+                |point| EmptyElement::at(point) + Polygon::new(marks.outline((0, 0)), colour.filled());
+            frame.draw_series(shape.spaced(points).map(marked))?;
+        }
     }
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! Pictures: the information of every cell, and the measures against cell size. Drawn into memory, with the same bytes
+//! Pictures: the information of every cell, where scans contradict one another, and curves. Drawn into memory, with the same bytes
 //! on every run and machine.
 
 mod axis;
@@ -6,20 +6,26 @@ mod bitmap;
 mod canvas;
 mod cell_cache;
 mod chart;
+mod conflict_map;
 mod convergence;
 mod drawing;
 mod frame;
 mod heat_map;
+mod map_picture;
+mod marks;
 mod panels;
 mod scale;
 mod series;
+mod side_by_side;
 mod svg;
 mod sweep;
 
 pub use chart::{Chart, Colour, Curve, Panel, Scale};
+pub use conflict_map::{ConflictMap, conflict_scale};
 pub use convergence::ConvergencePlot;
 pub use drawing::{Drawing, Picture, require_png, title};
 pub use heat_map::HeatMap;
+pub use marks::{Marks, Shape};
 pub use panels::{MapPanel, panels};
 pub use series::SeriesPlot;
 pub use svg::{Sheet, Svg};

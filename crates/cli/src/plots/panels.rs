@@ -2,12 +2,14 @@
 
 use super::bitmap::Bitmap;
 use super::drawing::drawing_failure;
+use super::map_picture::{PATH as PATH_LINE, block};
 use super::svg::Svg;
 use crate::failure::Failure;
+use crate::output::short;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use mean_information::Real;
-use mean_information::map::{Encoding, Grid};
+use mean_information::map::{Encoding, Geometry, Grid};
 
 const WIDTH: u32 = 900;
 const GAP: f64 = 16.0;
@@ -18,6 +20,8 @@ const SCALE: f64 = 44.0;
 /// A cell is drawn as a square of pixels, so many that the map has about this many pixels a side: viewers that smooth
 /// what they enlarge would blur it.
 const PIXELS: usize = 1000;
+/// The least length of the scale's bar, in pixels.
+const LEAST_BAR: f64 = 24.0;
 const UNKNOWN: [u8; 3] = [176, 190, 206];
 const PATH: &str = "#BE4B00";
 
@@ -32,6 +36,8 @@ pub struct MapPanel {
     extent: [f64; 4],
     /// The places of the sensor, in metres.
     places: Vec<[f64; 2]>,
+    /// The path of the sensor, in metres.
+    path: Vec<[f64; 2]>,
 }
 
 impl MapPanel {
@@ -40,21 +46,50 @@ impl MapPanel {
     /// # Errors
     /// None is known, but for a grid without cells.
     pub fn new<E: Encoding>(grid: &Grid<E>, title: &str, text: String) -> Result<Self, Failure> {
-        let (width, height) = (grid.width(), grid.height());
-        let zoom = (PIXELS / width.max(height).max(1)).max(1);
-        let mut picture = Bitmap::new((width * zoom) as u32, (height * zoom) as u32);
-        for (y, row) in (0..height).rev().flat_map(|row| std::iter::repeat_n(row, zoom)).enumerate() {
-            for (column, &stored) in grid.row(row).unwrap_or_default().iter().enumerate() {
-                let colour = colour(E::occupancy(stored).map(Real::widen));
+        let size = [grid.width(), grid.height()];
+        let block = block(size);
+        let mut squares = Vec::new();
+        for first in (0..size[1]).step_by(block) {
+            for left in (0..size[0]).step_by(block) {
+                let rows = (first..first + block).filter_map(|row| grid.row(row));
+                let cells = rows.flat_map(|row| &row[left..(left + block).min(size[0])]);
+                let known = cells.filter_map(|&stored| E::occupancy(stored).map(Real::widen));
+                let (sum, count) =
+                    known.filter(|&p| p != 0.5).fold((0.0, 0_u32), |(sum, count), p| (sum + p, count + 1));
+                squares.push(colour((count > 0).then(|| sum / f64::from(count))));
+            }
+        }
+        Self::of_squares(size, grid.geometry(), &squares, title, text)
+    }
+
+    /// Creates the panel of a map of so many cells, from a colour for each square of [`block`] cells, row by row from the
+    /// lowest.
+    ///
+    /// # Errors
+    /// None is known, but for a map without cells.
+    pub(super) fn of_squares(
+        [width, height]: [usize; 2],
+        geometry: &Geometry,
+        squares: &[[u8; 3]],
+        title: &str,
+        text: String,
+    ) -> Result<Self, Failure> {
+        let block = block([width, height]);
+        let [columns, rows] = [width, height].map(|cells| cells.div_ceil(block));
+        let zoom = (PIXELS / columns.max(rows).max(1)).max(1);
+        let mut picture = Bitmap::new((columns * zoom) as u32, (rows * zoom) as u32);
+        let rows = squares.chunks(columns.max(1)).rev().flat_map(|row| std::iter::repeat_n(row, zoom));
+        for (y, row) in (0..).zip(rows) {
+            for (column, &colour) in row.iter().enumerate() {
                 for x in column * zoom..(column + 1) * zoom {
-                    picture.paint(x as i32, y as i32, colour);
+                    picture.paint(x as i32, y, colour);
                 }
             }
         }
-        let (side, [left, lower]) = (grid.geometry().resolution(), grid.geometry().origin());
+        let (side, [left, lower]) = (geometry.resolution(), geometry.origin());
         let extent = [left, lower, left + width as f64 * side, lower + height as f64 * side];
         let png = picture.png().map_err(drawing_failure)?;
-        Ok(Self { title: title.to_owned(), text, png, extent, places: Vec::new() })
+        Ok(Self { title: title.to_owned(), text, png, extent, places: Vec::new(), path: Vec::new() })
     }
 
     /// Marks where the sensor was.
@@ -62,9 +97,16 @@ impl MapPanel {
     pub fn with_places(self, places: Vec<[f64; 2]>) -> Self {
         Self { places, ..self }
     }
+
+    /// Draws the path of the sensor through these positions, in metres; the first has a dot.
+    #[must_use]
+    pub fn with_path(self, path: Vec<[f64; 2]>) -> Self {
+        Self { path, ..self }
+    }
 }
 
-fn colour(occupancy: Option<f64>) -> [u8; 3] {
+/// Returns the grey of an occupancy; `None` and 1/2 are unknown.
+pub(super) fn colour(occupancy: Option<f64>) -> [u8; 3] {
     match occupancy {
         Some(p) if p != 0.5 => [(255.0 * (1.0 - p)).round() as u8; 3],
         _ => UNKNOWN,
@@ -109,21 +151,43 @@ impl MapPanel {
         for [px, py] in self.places.iter().map(|&place| at(place)) {
             sheet.add(&format!(r#"<circle cx="{px:.2}" cy="{py:.2}" r="5" fill="{PATH}"/>"#));
         }
+        if let Some(&first) = self.path.first() {
+            let [r, g, b] = PATH_LINE;
+            let points: Vec<_> = self.path.iter().map(|&place| at(place)).collect();
+            let points: Vec<_> = points.iter().map(|[px, py]| format!("{px:.1},{py:.1}")).collect();
+            let [px, py] = at(first);
+            sheet.add(&format!(
+                r#"<polyline points="{}" fill="none" stroke="rgb({r},{g},{b})" stroke-width="1.5" stroke-linejoin="round"/><circle cx="{px:.2}" cy="{py:.2}" r="4" fill="rgb({r},{g},{b})"/>"#,
+                points.join(" ")
+            ));
+        }
         let y = TITLES + height + GAP;
+        let metres = round_length(LEAST_BAR / scale);
+        let bar = scale * metres;
         sheet.add(&format!(
-            r##"<path d="M{x} {:.2}v10M{x} {y:.2}h{scale:.2}m0 -5v10" stroke="#000000" fill="none"/>"##,
+            r##"<path d="M{x} {:.2}v10M{x} {y:.2}h{bar:.2}m0 -5v10" stroke="#000000" fill="none"/>"##,
             y - 5.0
         ));
-        sheet.add_text(x + scale + 24.0, y + 6.0, "normal", "1 m");
+        // The text is set about its middle; a digit is about 10 pixels wide.
+        let text = format!("{} m", short(metres));
+        sheet.add_text(x + bar + 9.0 + 5.0 * text.len() as f64, y + 6.0, "normal", &text);
         sheet
     }
+}
+
+/// Returns the least of 1, 2, 5, 10, 20, 50, ... that is not below `least`, in metres.
+fn round_length(least: f64) -> f64 {
+    let decades = std::iter::successors(Some(1.0), |decade| Some(decade * 10.0)).take(300);
+    decades
+        .flat_map(|decade| [decade, 2.0 * decade, 5.0 * decade])
+        .find(|&length| length >= least)
+        .unwrap_or(1.0)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::plots::Sheet;
-    use mean_information::map::Geometry;
     use mean_information::map::encoding::Probability;
 
     /// Two maps of one world: each image lies where its map does, on the same scale.
@@ -159,6 +223,12 @@ mod tests {
         assert!((number(&circle, "cx") - GAP / 2.0 - scale).abs() <= 0.01);
         assert!((number(&circle, "cy") - TITLES - scale / 2.0).abs() <= 0.01);
         assert!(images[0].attribute("href").unwrap().starts_with("data:image/png;base64,iVBOR"));
+    }
+
+    #[test]
+    fn bars_are_round_and_long_enough() {
+        let lengths = [0.01, 1.0, 1.1, 4.0, 5.5, 31.0, 199.0].map(round_length);
+        assert_eq!(lengths, [1.0, 1.0, 2.0, 5.0, 10.0, 50.0, 200.0]);
     }
 
     #[test]

@@ -4,6 +4,7 @@ use super::axis::Axis;
 use super::chart::Colour;
 use super::drawing::Drawing;
 use super::frame::{Side, curve, frame, legend};
+use super::marks::Marks;
 use crate::output::{decimal_exponent, short};
 use crate::series::{Series, seconds};
 use plotters::coord::Shift;
@@ -61,7 +62,8 @@ impl SeriesPlot {
             Side { axis: horizontal, title: "time after the first map (s)", label: &short },
             Side { axis, title, label: &short },
         )?;
-        curve(&mut chart, label, colour, points.len() <= DOTS, points)?;
+        let marks = if points.len() <= DOTS { Marks::Each } else { Marks::None };
+        curve(&mut chart, label, colour, marks, points)?;
         legend(&mut chart)
     }
 }

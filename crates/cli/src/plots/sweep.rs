@@ -4,6 +4,7 @@ use super::axis::{Axis, power_of_ten};
 use super::chart::Colour;
 use super::drawing::Drawing;
 use super::frame::{Side, curve, frame, legend};
+use super::marks::Marks;
 use crate::output::short;
 use crate::sweep::{Step, Sweep};
 use plotters::coord::Shift;
@@ -134,7 +135,7 @@ impl SweepPlot {
             },
             Side { axis: half.axis.clone(), title: half.axis_label, label: half.tick_label },
         )?;
-        curve(&mut chart, half.label, half.colour, true, half.points)?;
+        curve(&mut chart, half.label, half.colour, Marks::Each, half.points)?;
         legend(&mut chart)
     }
 }

@@ -88,7 +88,7 @@ pub(crate) fn entropy(p: f64) -> f64 {
 
 pub(crate) fn assert_near(found: &Value, expected: f64) {
     let found = found.as_f64().unwrap();
-    assert!((found - expected).abs() <= 1e-12 * expected.abs().max(1.0), "{found} is not {expected}");
+    approx::assert_relative_eq!(found, expected, epsilon = 1e-12, max_relative = 1e-12);
 }
 
 /// Checks that every key with a twin holds the number of the twin, and that there are as many twins as expected.

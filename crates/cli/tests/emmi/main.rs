@@ -4,6 +4,7 @@
 mod common;
 mod refused;
 
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use common::*;
 use mean_information::expected::Hypotheses;
 use mean_information::map::encoding::MrptLogOdds;
@@ -109,8 +110,10 @@ fn real_particles_have_the_expected_values_to_the_last_bit() {
             expected["shape"].as_array().unwrap()[1..].iter().map(|n| n.as_f64().unwrap()).product();
         let unknown = cells - expected["N_obs"].as_f64().unwrap();
         // Two roundings to 16 digits of 3e4 bits.
-        assert!(
-            (found["entropy_bits"].as_f64().unwrap() - unknown - digits("sum_H_bits_observed")).abs() < 2e-11
+        assert_abs_diff_eq!(
+            found["entropy_bits"].as_f64().unwrap() - unknown,
+            digits("sum_H_bits_observed"),
+            epsilon = 2e-11
         );
         let own = found["particles"].as_array().unwrap();
         let expected_own = expected["per_particle_MI"].as_array().unwrap();
@@ -119,7 +122,7 @@ fn real_particles_have_the_expected_values_to_the_last_bit() {
         for (own, expected) in own.iter().zip(expected_own) {
             let expected: f64 = expected.as_str().unwrap().parse().unwrap();
             // Each cell is rounded by at most 2^-54, and the mean by 2^-54.
-            assert!((own.as_f64().unwrap() - expected).abs() <= f64::EPSILON / 2.0, "{own} {expected}");
+            assert_abs_diff_eq!(own.as_f64().unwrap(), expected, epsilon = f64::EPSILON / 2.0);
             furthest = furthest.max(expected);
         }
         // A mean is not above what it is a mean of.
@@ -165,7 +168,7 @@ fn mrpt_s_average_is_the_log_linear_pool_cut_to_a_byte() {
             assert_eq!(f64::from(byte), f64::from(sum.trunc()), "{step} cell {k}");
             // The sum of 20 terms below 127, in f32: weights, products and sums are off by at most 2^-24 of 127 each.
             let error = 41.0 * 127.0 * f64::from(f32::EPSILON) / 2.0;
-            assert!((f64::from(sum) - exact).abs() <= error, "{step} cell {k}");
+            assert!(abs_diff_eq!(f64::from(sum), exact, epsilon = error), "{step} cell {k}");
             if (exact - exact.round()).abs() > error {
                 assert_eq!(f64::from(byte), exact.trunc(), "{step} cell {k}");
             } else if exact.trunc() != f64::from(byte) {
@@ -274,7 +277,7 @@ fn the_same_particles_in_other_words() {
     assert_eq!(again(npy("<f8", true, &[3, 2, 4], &doubles(&columns)), &WEIGHTS), first);
     let narrow: Vec<u8> = PARTICLES.concat().iter().flat_map(|&p| (p as f32).to_le_bytes()).collect();
     let narrow = again(npy("<f4", false, &[3, 2, 4], &narrow), &WEIGHTS);
-    assert!((narrow["emmi"].as_f64().unwrap() - first["emmi"].as_f64().unwrap()).abs() < 1e-6);
+    assert_abs_diff_eq!(narrow["emmi"].as_f64().unwrap(), first["emmi"].as_f64().unwrap(), epsilon = 1e-6);
     assert_eq!(narrow["observed"], first["observed"]);
 }
 
@@ -313,17 +316,17 @@ fn a_particle_in_which_nothing_is_observed() {
     let mean = (1.0 - entropy(0.25)) / 2.0;
     let warning = "1 particle with nothing observed, 0 in the mean of particles";
     let (found, warnings) = of(&[0.25, 0.5, 0.5, 0.5], &[0.75, 0.75]);
-    assert!((found.unwrap() - mean).abs() < 1e-15);
+    assert_abs_diff_eq!(found.unwrap(), mean, epsilon = 1e-15);
     assert_eq!(warnings, [warning]);
     let (found, warnings) = of(&[0.25, 0.5, 0.5, 0.5, 0.5, 0.5], &[1.5, 0.75, 0.75]);
-    assert!((found.unwrap() - mean).abs() < 1e-15);
+    assert_abs_diff_eq!(found.unwrap(), mean, epsilon = 1e-15);
     assert_eq!(warnings, [warning.replace("1 particle", "2 particles")]);
     assert_eq!(of(&[0.25, 0.5, 0.5, 0.5], &[0.75, 0.0]).1, [""; 0]);
     let (found, warnings) = of(&[0.25, 0.5, 0.5, 0.5], &[0.0, 0.75]);
     assert_eq!((found, warnings.len()), (None, 1));
     // Their mean is unknown, they are not.
     let (found, warnings) = of(&[0.25, 0.5, 0.75, 0.5], &[0.75, 0.75]);
-    assert!((found.unwrap() - 2.0 * mean).abs() < 1e-15);
+    assert_abs_diff_eq!(found.unwrap(), 2.0 * mean, epsilon = 1e-15);
     assert!(warnings.len() == 1 && warnings[0].as_str().unwrap().starts_with("nothing observed"));
 }
 

@@ -20,7 +20,7 @@ fn what_cannot_be_read_is_refused_and_nothing_written() {
     let says =
         |line: String, words: &[&str]| words.iter().for_each(|word| assert!(line.contains(word), "{line}"));
 
-    says(refused(stack(), weights(&[0.5, 0.5]), &[]), &["w.npy", "number of weights is 2", "allowed is 3"]);
+    says(refused(stack(), weights(&[0.5, 0.5]), &[]), &["w.npy: has 2 weights", "p.npy has 3 particles"]);
     says(refused(stack(), weights(&[0.5, -0.5, 1.0]), &[]), &["w.npy", "weight 1 is -0.5"]);
     says(refused(stack(), weights(&[0.5, f64::NAN, 1.0]), &[]), &["w.npy", "weight 1 is NaN"]);
     says(refused(stack(), weights(&[0.0; 3]), &[]), &["w.npy", "sum of the weights is 0"]);

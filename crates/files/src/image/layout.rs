@@ -99,4 +99,17 @@ pub(crate) struct MaxPixels {
     pub(crate) pgm: u64,
     /// The most of a PNG, which is compressed.
     pub(crate) png: u64,
+    /// The most of an image that is decoded whole.
+    pub(crate) decoded: u64,
+}
+
+/// The end of a file, after its image.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Rest {
+    /// Nothing, or white space where the format allows it.
+    Nothing,
+    /// Something that is no part of the image.
+    More,
+    /// One byte, because the header ends in two.
+    LineEnd,
 }

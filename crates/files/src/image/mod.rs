@@ -1,9 +1,11 @@
-//! Map images: PGM and PNG, told apart by their first bytes, read from the top a piece at a time.
+//! Map images, told apart by their first bytes: PGM and PNG read from the top a piece at a time, others decoded whole.
 
+mod decoded;
+mod format;
 mod layout;
 mod pgm;
 mod png;
 mod reader;
 
-pub(crate) use layout::{Channels, Colours, Layout, MaxPixels};
+pub(crate) use layout::{Channels, Colours, Layout, MaxPixels, Rest};
 pub(crate) use reader::Image;

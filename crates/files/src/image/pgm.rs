@@ -3,9 +3,9 @@
 //! Own code: the grammar is these few lines, and comments, maximum values, trailing data and memory are what map files
 //! get wrong, so they must be ours to check.
 
-use super::layout::{Channels, Layout};
+use super::layout::{Channels, Layout, Rest};
 use crate::error::{Error, ErrorKind, Place};
-use crate::size::{Size, read_pieces};
+use crate::size::{Size, at_end, read_pieces};
 use std::io::BufRead;
 
 /// Samples of a plain image that are handed on together.
@@ -15,6 +15,8 @@ const PLAIN_PIECE: usize = 4096;
 pub(crate) struct Pgm<R> {
     input: R,
     plain: bool,
+    /// True if the header of a raw image ends in CR LF, so that LF is its first pixel.
+    line_end: bool,
     layout: Layout,
 }
 
@@ -26,9 +28,12 @@ impl<R: BufRead> Pgm<R> {
         let width = header_number(&mut input, "width", u32::MAX)?;
         let height = header_number(&mut input, "height", u32::MAX)?;
         let size = Size::within(width.into(), height.into(), max_cells)?;
-        let max = header_number(&mut input, "maximum value", 65535)? as u16;
+        let (max, end) = header_number_and_end(&mut input, "maximum value", 65535)?;
+        let max = max as u16;
+        let plain = magic == *b"P2";
+        let line_end = !plain && end == Some(b'\r') && input.fill_buf()?.first() == Some(&b'\n');
         let layout = Layout { size, channels: Channels::Grey, max, white: max };
-        Ok(Self { input, plain: magic == *b"P2", layout })
+        Ok(Self { input, plain, line_end, layout })
     }
 
     /// Returns the layout of the pieces.
@@ -36,14 +41,14 @@ impl<R: BufRead> Pgm<R> {
         self.layout
     }
 
-    /// Gives all pixels in reading order, a piece at a time.
-    pub(super) fn pixels(mut self, mut each: impl FnMut(&[u8]) -> Result<(), Error>) -> Result<(), Error> {
+    /// Gives all pixels in reading order, a piece at a time; returns what follows them.
+    pub(super) fn pixels(mut self, mut each: impl FnMut(&[u8]) -> Result<(), Error>) -> Result<Rest, Error> {
         if self.plain {
             self.plain_pixels(&mut each)?;
         } else {
             self.raw_pixels(&mut each)?;
         }
-        self.check_end()
+        self.rest()
     }
 
     /// Gives the pixels of a raw image.
@@ -88,16 +93,13 @@ impl<R: BufRead> Pgm<R> {
         each(&piece)
     }
 
-    /// Checks that nothing but white space follows the pixels; in a plain image comments may, too.
-    fn check_end(mut self) -> Result<(), Error> {
-        let rest = if self.plain { skip_blank(&mut self.input)? } else { skip_space(&mut self.input)? };
-        match rest {
-            None => Ok(()),
-            Some(_) => Err(Error::new(
-                ErrorKind::Format,
-                format!("holds more than the {} pixels its header claims", self.layout.size.cells()),
-            )),
+    /// Tells what follows the pixels. White space is nothing; in a plain image comments are, too.
+    fn rest(mut self) -> Result<Rest, Error> {
+        if self.line_end && !at_end(&mut self.input)? {
+            return Ok(Rest::LineEnd);
         }
+        let rest = if self.plain { skip_blank(&mut self.input)? } else { skip_space(&mut self.input)? };
+        Ok(if rest.is_none() { Rest::Nothing } else { Rest::More })
     }
 }
 
@@ -113,15 +115,31 @@ impl Layout {
 
 /// Reads a number of the header from 1 to `most`, and the one white space after it.
 fn header_number(input: &mut impl BufRead, what: &str, most: u32) -> Result<u32, Error> {
-    match number(input)? {
-        Some(n) if (1..=most).contains(&n) => Ok(n),
-        Some(n) => Err(Error::out_of_range(format!("the {what} in the header"), n, format!("1 to {most}"))),
+    header_number_and_end(input, what, most).map(|(n, _)| n)
+}
+
+/// Reads a number of the header, and returns the byte after it, too.
+fn header_number_and_end(
+    input: &mut impl BufRead,
+    what: &str,
+    most: u32,
+) -> Result<(u32, Option<u8>), Error> {
+    match number_and_end(input)? {
+        Some((n, end)) if (1..=most).contains(&n) => Ok((n, end)),
+        Some((n, _)) => {
+            Err(Error::out_of_range(format!("the {what} in the header"), n, format!("1 to {most}")))
+        }
         None => Err(Error::new(ErrorKind::CutShort, format!("the header ends before the {what}"))),
     }
 }
 
-/// Reads the next number and what ends it: one white space, a comment or the end of the file; `None` at the end.
+/// Reads the next number and what ends it; `None` at the end.
 fn number(input: &mut impl BufRead) -> Result<Option<u32>, Error> {
+    Ok(number_and_end(input)?.map(|(n, _)| n))
+}
+
+/// Reads the next number and what ends it: one white space, a comment or the end of the file.
+fn number_and_end(input: &mut impl BufRead) -> Result<Option<(u32, Option<u8>)>, Error> {
     let Some(first) = skip_blank(input)? else {
         return Ok(None);
     };
@@ -143,7 +161,7 @@ fn number(input: &mut impl BufRead) -> Result<Option<u32>, Error> {
         n = more;
         next = byte_of(input)?;
     }
-    Ok(Some(n))
+    Ok(Some((n, next)))
 }
 
 /// Reads the first byte after white space and comments.

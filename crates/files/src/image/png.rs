@@ -4,7 +4,7 @@
 //!
 //! An interlaced image must be held whole before its first row is known, so only small ones are read.
 
-use super::layout::{Channels, Colours, Layout};
+use super::layout::{Channels, Colours, Layout, Rest};
 use crate::error::{Error, ErrorKind};
 use crate::size::{Size, at_end};
 use png::{BitDepth, ColorType, Decoder, DecodingError, Info, Limits, Reader, Transformations};
@@ -84,17 +84,17 @@ impl<R: BufRead + Seek> Png<R> {
     }
 
     /// Tells whether the grey levels are the indices of a palette.
-    pub(crate) fn is_indices(&self) -> bool {
+    pub(super) fn is_indices(&self) -> bool {
         self.index_bits.is_some()
     }
 
     /// Tells whether samples of 16 bits are cut to their high byte.
-    pub(crate) fn is_cut(&self) -> bool {
+    pub(super) fn is_cut(&self) -> bool {
         self.cut
     }
 
-    /// Gives all pixels in reading order, a row at a time.
-    pub(super) fn pixels(mut self, mut each: impl FnMut(&[u8]) -> Result<(), Error>) -> Result<(), Error> {
+    /// Gives all pixels in reading order, a row at a time; returns what follows the image.
+    pub(super) fn pixels(mut self, mut each: impl FnMut(&[u8]) -> Result<(), Error>) -> Result<Rest, Error> {
         let Size { width, height } = self.layout.size;
         let mut indices = Vec::new();
         let mut row_of = |row: &[u8]| match self.index_bits {
@@ -124,11 +124,7 @@ impl<R: BufRead + Seek> Png<R> {
         }
         reader.finish().map_err(refused)?;
         drop(reader);
-        if at_end(self.input)? {
-            return Ok(());
-        }
-        Err(Error::new(ErrorKind::Format, "goes on after the end of the PNG")
-            .allowing("; allowed is ", "one image and nothing else"))
+        Ok(if at_end(self.input)? { Rest::Nothing } else { Rest::More })
     }
 }
 

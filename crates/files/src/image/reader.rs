@@ -1,9 +1,12 @@
-//! An image of either format, told by its first bytes.
+//! An image of any format that is read.
 
-use super::layout::{Colours, Layout, MaxPixels};
+use super::decoded::Decoded;
+use super::format::Reader;
+use super::layout::{Colours, Layout, MaxPixels, Rest};
 use super::pgm::Pgm;
 use super::png::Png;
-use crate::error::{Error, ErrorKind, Place};
+use crate::error::Error;
+use image::ImageFormat;
 use std::io::{BufRead, Seek};
 
 /// An image whose header was read.
@@ -12,28 +15,20 @@ pub(crate) enum Image<R: BufRead + Seek> {
     Pgm(Pgm<R>),
     /// PNG.
     Png(Box<Png<R>>),
+    /// Another, decoded.
+    Decoded(Decoded),
 }
 
 impl<R: BufRead + Seek> Image<R> {
-    /// Reads the header.
+    /// Reads the header of the image in the file `name`.
     ///
     /// # Errors
-    /// An [`Error`] if this is no PGM or PNG, its header is malformed, or it has more than `most` pixels.
-    pub(crate) fn open(mut input: R, colours: Colours, most: MaxPixels) -> Result<Self, Error> {
-        match input.fill_buf()? {
-            [] => Err(Error::new(ErrorKind::CutShort, "the file is empty")
-                .allowing("; allowed are ", "PGM (P2, P5) and PNG images")),
-            [b'P', b'2' | b'5', ..] => Pgm::open(input, most.pgm).map(Self::Pgm),
-            [0x89, b'P', b'N', b'G', ..] => {
-                Png::open(input, colours, most.png).map(|png| Self::Png(Box::new(png)))
-            }
-            first => {
-                let first = first[..first.len().min(4)].escape_ascii().to_string();
-                Err(Error::new(ErrorKind::Unsupported, "is no image this program reads")
-                    .at(Place::Byte(0))
-                    .with_value(first)
-                    .allowing("; allowed are ", "PGM (P2, P5) and PNG"))
-            }
+    /// An [`Error`] if this is no image that is read, its header is malformed, or it has more than `most` pixels.
+    pub(crate) fn open(mut input: R, name: &str, colours: Colours, most: MaxPixels) -> Result<Self, Error> {
+        match Reader::of(input.fill_buf()?, name)? {
+            Reader::Pgm => Pgm::open(input, most.pgm).map(Self::Pgm),
+            Reader::Png => Png::open(input, colours, most.png).map(|png| Self::Png(Box::new(png))),
+            Reader::Decoded(format) => Decoded::open(input, format, colours, most.decoded).map(Self::Decoded),
         }
     }
 
@@ -42,17 +37,42 @@ impl<R: BufRead + Seek> Image<R> {
         match self {
             Self::Pgm(pgm) => pgm.layout(),
             Self::Png(png) => png.layout(),
+            Self::Decoded(image) => image.layout(),
         }
     }
 
-    /// Gives all pixels in reading order, some whole pixels at a time, and checks that the file ends with the image.
+    /// Tells whether the grey levels are the indices of a palette.
+    pub(crate) fn is_indices(&self) -> bool {
+        match self {
+            Self::Pgm(_) => false,
+            Self::Png(png) => png.is_indices(),
+            Self::Decoded(image) => image.indices,
+        }
+    }
+
+    /// Tells whether samples of 16 bits are cut to their high byte.
+    pub(crate) fn is_cut(&self) -> bool {
+        match self {
+            Self::Pgm(_) => false,
+            Self::Png(png) => png.is_cut(),
+            Self::Decoded(image) => image.cut,
+        }
+    }
+
+    /// Tells whether this is a JPEG.
+    pub(crate) fn is_jpeg(&self) -> bool {
+        matches!(self, Self::Decoded(image) if image.format == ImageFormat::Jpeg)
+    }
+
+    /// Gives all pixels in reading order, some whole pixels at a time, and returns what follows the image.
     ///
     /// # Errors
-    /// An [`Error`] if the image is cut short or malformed or something follows it, or what `each` returns.
-    pub(crate) fn pixels(self, each: impl FnMut(&[u8]) -> Result<(), Error>) -> Result<(), Error> {
+    /// An [`Error`] if the image is cut short or malformed, or what `each` returns.
+    pub(crate) fn pixels(self, each: impl FnMut(&[u8]) -> Result<(), Error>) -> Result<Rest, Error> {
         match self {
             Self::Pgm(pgm) => pgm.pixels(each),
             Self::Png(png) => png.pixels(each),
+            Self::Decoded(image) => image.pixels(each),
         }
     }
 }

@@ -9,20 +9,13 @@ use std::io::Read;
 /// The most bytes of a header; numpy itself reads headers up to 10 000.
 const MOST_BYTES: u32 = 64 << 10;
 
-/// The elements that an array may hold.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Allowed {
-    words: &'static str,
-    /// Also integers other than int8.
-    integers: bool,
-}
+/// The elements that an array may hold, in words.
+pub(super) type Allowed = &'static str;
 
 /// The elements that maps may hold.
-pub(super) const MAPS: Allowed =
-    Allowed { words: "are float32 (f4), float64 (f8) and int8 (i1)", integers: false };
+pub(super) const MAPS: Allowed = "are float32 (f4), float64 (f8), int8 (i1), uint8 and bool";
 /// The elements that weights may hold.
-pub(super) const WEIGHTS: Allowed =
-    Allowed { words: "for weights are float32 (f4), float64 (f8) and integers", integers: true };
+pub(super) const WEIGHTS: Allowed = "for weights are float32 (f4), float64 (f8) and integers";
 
 /// The elements that maps and weights are stored in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,6 +23,8 @@ pub(super) enum Element {
     Float32,
     Float64,
     Int8,
+    /// True and false, a byte each.
+    Bool,
     /// Other integers.
     Integer {
         bytes: usize,
@@ -41,7 +36,7 @@ impl Element {
     /// Returns the bytes of an element.
     pub(super) fn bytes(self) -> usize {
         match self {
-            Self::Int8 => 1,
+            Self::Int8 | Self::Bool => 1,
             Self::Float32 => 4,
             Self::Float64 => 8,
             Self::Integer { bytes, .. } => bytes,
@@ -49,23 +44,26 @@ impl Element {
     }
 
     /// Returns the name of the elements.
-    pub(super) fn name(self) -> &'static str {
+    pub(super) fn name(self) -> String {
         match self {
-            Self::Int8 => "int8",
-            Self::Float32 => "float32",
-            Self::Float64 => "float64",
-            Self::Integer { .. } => "integers",
+            Self::Int8 => "int8".to_owned(),
+            Self::Bool => "bool".to_owned(),
+            Self::Float32 => "float32".to_owned(),
+            Self::Float64 => "float64".to_owned(),
+            Self::Integer { bytes, signed: true } => format!("int{}", 8 * bytes),
+            Self::Integer { bytes, .. } => format!("uint{}", 8 * bytes),
         }
     }
 
-    /// Returns the element of a type string, if it is allowed.
-    fn of(descr: &str, allowed: Allowed) -> Option<Self> {
-        let integer = |bytes, signed| allowed.integers.then_some(Self::Integer { bytes, signed });
+    /// Returns the element of a type string.
+    fn of(descr: &str) -> Option<Self> {
+        let integer = |bytes, signed| Some(Self::Integer { bytes, signed });
         let (order, name) = descr.split_at_checked(1)?;
         match (order, name) {
             ("<" | ">", "f4") => Some(Self::Float32),
             ("<" | ">", "f8") => Some(Self::Float64),
             ("<" | ">" | "|", "i1") => Some(Self::Int8),
+            ("<" | ">" | "|", "b1") => Some(Self::Bool),
             ("<" | ">" | "|", "u1") => integer(1, false),
             ("<" | ">", "i2") => integer(2, true),
             ("<" | ">", "u2") => integer(2, false),
@@ -170,9 +168,16 @@ impl Header {
         let shape = <[u64; N]>::try_from(&self.shape[..]);
         let shown = self.shape.iter().map(u64::to_string).collect::<Vec<_>>().join(" x ");
         shape.map_err(|_| {
-            Error::new(ErrorKind::Unsupported, format!("holds an array of {found} ({shown})"))
+            let refused = Error::new(ErrorKind::Unsupported, format!("holds an array of {found} ({shown})"))
                 .with_value(shown)
-                .allowing("; allowed is ", format!("{allowed}: {what}"))
+                .allowing("; allowed is ", format!("{allowed}: {what}"));
+            match (self.shape.len(), N) {
+                (3, 2) => refused.followed_by("; a[0] is its first map, a[:, :, 0] its first channel"),
+                (1, 2) => refused.followed_by("; p.reshape(rows, columns) makes a map of it"),
+                (2, 3) => refused.followed_by("; p[None] makes a stack of one map"),
+                (2, 1) => refused.followed_by("; w.ravel() makes a list of it"),
+                _ => refused,
+            }
         })
     }
 
@@ -201,18 +206,19 @@ fn malformed(allowed: impl Into<Cow<'static, str>>) -> Error {
 
 /// Parses the element of a type string, and whether its bytes run from the high one.
 fn element(descr: &str, allowed: Allowed) -> Result<(Element, bool), Error> {
-    let Some(found) = Element::of(descr, allowed) else {
-        let what = match descr.trim_start_matches(['<', '>', '|', '=']).chars().next() {
-            Some('O') => "Python objects",
-            Some('c') => "complex numbers",
-            Some('V') => "records",
-            Some('i' | 'u') => "integers other than int8",
-            Some('f') => "floats other than float32 and float64",
-            _ => "no numbers",
+    let Some(found) = Element::of(descr) else {
+        let (what, mended) = match descr.trim_start_matches(['<', '>', '|', '=']).chars().next() {
+            Some('O') => ("Python objects", "p.astype('f8')"),
+            Some('c') => ("complex numbers", "p.real"),
+            Some('i' | 'u') => ("integers of another size", "p.astype('i1')"),
+            Some('V') => ("records", "p['name of a field']"),
+            Some('f') => ("floats other than float32 and float64", "p.astype('f8')"),
+            _ => ("no numbers", "p.astype('f8')"),
         };
         return Err(Error::new(ErrorKind::Unsupported, format!("holds {what} ({descr:?})"))
             .with_value(descr)
-            .allowing("; allowed ", allowed.words));
+            .allowing("; allowed ", allowed)
+            .followed_by(&format!("; save {mended}")));
     };
     Ok((found, descr.starts_with('>')))
 }
@@ -254,7 +260,8 @@ impl<'a> Rest<'a> {
     fn descr(&mut self) -> Result<&'a str, Error> {
         if self.0.trim_start().starts_with('[') {
             return Err(Error::new(ErrorKind::Unsupported, "holds a structured array")
-                .allowing("; allowed are ", "plain arrays of float32, float64 or int8"));
+                .allowing("; allowed are ", "plain arrays of float32, float64 or int8")
+                .followed_by("; save p['name of a field']"));
         }
         self.string()
     }
@@ -320,7 +327,6 @@ mod tests {
         for (descr, shape, words) in [
             ("'|O'", "(3, 14)", "Python objects"),
             ("'<c16'", "(3, 14)", "complex"),
-            ("'<i4'", "(3, 14)", "integers other than int8"),
             ("'<f2'", "(3, 14)", "floats other"),
             ("'<U5'", "(3, 14)", "no numbers"),
             ("[('p', '<f8')]", "(3, 14)", "structured"),

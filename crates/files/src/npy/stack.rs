@@ -1,12 +1,12 @@
 //! Stacks of maps in one array, `[particle, row, column]`.
 
-use super::header::{self, Element, Header};
+use super::elements::{CellReader, no_cell, read_cells};
+use super::header::{self, Header};
 use super::values::Values;
-use crate::cells::Readable;
+use crate::cells::{ByteEncoding, Readable};
 use crate::error::{Error, ErrorKind};
-use crate::options::{ArrayEncoding, Options};
+use crate::options::Options;
 use crate::size::{Size, reserve};
-use mean_information::map::encoding::{LogOdds, MrptLogOdds, Percent, Probability};
 use mean_information::map::{Geometry, Grid};
 use std::io::Read;
 
@@ -73,80 +73,82 @@ pub(super) fn visit_maps<V: MapsVisitor>(
     // A factor of sizes that fit.
     let size = Size { width: all.width, height: all.height / (count.max(1) as usize) };
     let geometry = size.placed(options.resolution.unwrap_or(1.0), [0.0, 0.0], 0.0)?;
-    let mut maps = Maps { values: Values { input, header }, size, count: count as usize, geometry };
-    let encoding = options.encoding.unwrap_or(match header.element {
-        Element::Int8 => ArrayEncoding::Percent,
-        _ => ArrayEncoding::Probability,
-    });
-    Ok(match (encoding, header.element) {
-        (ArrayEncoding::Probability, Element::Float32) => {
-            visitor.visit(maps.read::<Probability<f32>, 4>(f32::from_le_bytes)?)
-        }
-        (ArrayEncoding::Probability, Element::Float64) => {
-            visitor.visit(maps.read::<Probability<f64>, 8>(f64::from_le_bytes)?)
-        }
-        (ArrayEncoding::LogOdds, Element::Float32) => {
-            visitor.visit(maps.read::<LogOdds<f32>, 4>(f32::from_le_bytes)?)
-        }
-        (ArrayEncoding::LogOdds, Element::Float64) => {
-            visitor.visit(maps.read::<LogOdds<f64>, 8>(f64::from_le_bytes)?)
-        }
-        (ArrayEncoding::Percent, Element::Int8) => visitor.visit(maps.read::<Percent, 1>(i8::from_le_bytes)?),
-        (ArrayEncoding::Mrpt, Element::Int8) => {
-            visitor.visit(maps.read::<MrptLogOdds, 1>(i8::from_le_bytes)?)
-        }
-        (encoding, element) => return Err(mismatch(encoding, element)),
-    })
+    let maps = Maps { values: Values { input, header }, size, count: count as usize, geometry, visitor };
+    read_cells(header.element, options, maps)
 }
 
-/// Creates the error of an encoding that does not fit the elements.
-fn mismatch(encoding: ArrayEncoding, element: Element) -> Error {
-    let (name, needed) = match encoding {
-        ArrayEncoding::Probability => ("probability", "float32 or float64"),
-        ArrayEncoding::LogOdds => ("log-odds", "float32 or float64"),
-        ArrayEncoding::Percent => ("percent", "int8"),
-        ArrayEncoding::Mrpt => ("mrpt", "int8"),
-    };
-    Error::new(ErrorKind::Unsupported, format!("holds {}", element.name()))
-        .with_value(element.name())
-        .allowing(&format!(", the encoding {name} needs "), needed)
-}
-
-/// The maps of an array whose header was checked.
-struct Maps<'a, R> {
+/// The maps of an array whose header was checked, and who visits them.
+struct Maps<'a, R, V> {
     values: Values<'a, R>,
     size: Size,
     count: usize,
     geometry: Geometry,
+    visitor: V,
 }
 
-impl<R: Read> Maps<'_, R> {
-    /// Reads all maps.
+impl<R: Read, V: MapsVisitor> CellReader for Maps<'_, R, V> {
+    type Output = V::Output;
+
+    fn floats<E: Readable, const N: usize>(
+        self,
+        cell: impl Fn([u8; N]) -> Result<E::Stored, f64>,
+    ) -> Result<V::Output, Error> {
+        self.read::<E, N>(cell)
+    }
+
+    fn integers<E: ByteEncoding, const N: usize>(
+        self,
+        cell: impl Fn([u8; N]) -> Result<i8, f64>,
+    ) -> Result<V::Output, Error> {
+        self.read::<E, N>(cell)
+    }
+}
+
+impl<R: Read, V: MapsVisitor> Maps<'_, R, V> {
+    /// Reads all maps, and has them visited.
     fn read<E: Readable, const N: usize>(
-        &mut self,
-        of: fn([u8; N]) -> E::Stored,
-    ) -> Result<Vec<Grid<E>>, Error> {
+        mut self,
+        cell: impl Fn([u8; N]) -> Result<E::Stored, f64>,
+    ) -> Result<V::Output, Error> {
         let cells = self.size.cells();
+        let fortran_order = self.values.header.fortran_order;
         // By columns, the particles lie between each other: all must be read first.
-        let all = if self.values.header.fortran_order {
-            self.values.take(cells * self.count, of)?
-        } else {
-            Vec::new()
-        };
+        let all = if fortran_order { self.take::<E, N>(cells * self.count, 0, &cell)? } else { Vec::new() };
         let mut maps = Vec::new();
         for particle in 0..self.count {
-            let cells = if self.values.header.fortran_order {
+            let cells = if fortran_order {
                 self.by_columns(&all, particle)?
             } else {
-                self.values.take(cells, of)?
+                self.take::<E, N>(cells, particle * cells, &cell)?
             };
-            let grid = Grid::new(self.size.width, self.size.height, self.geometry, cells);
-            maps.push(grid.map_err(|error| match self.count {
-                1 => Error::from(error),
-                _ => Error::from(error).in_map(particle).preceded_by(&format!("particle {particle}: ")),
-            })?);
+            maps.push(Grid::<E>::new(self.size.width, self.size.height, self.geometry, cells)?);
         }
-        Ok(maps)
+        Ok(self.visitor.visit(maps))
+    }
+
+    /// Reads the next `count` cells, of which the first is the cell number `first` in the file.
+    fn take<E: Readable, const N: usize>(
+        &mut self,
+        count: usize,
+        first: usize,
+        cell: impl Fn([u8; N]) -> Result<E::Stored, f64>,
+    ) -> Result<Vec<E::Stored>, Error> {
+        let order = self.order();
+        let mut cells = Vec::new();
+        self.values.pieces(count, |piece: &[[u8; N]]| {
+            reserve(&mut cells, piece.len(), count)?;
+            for &bytes in piece {
+                let read = cell(bytes).map_err(|value| order.no_cell::<E>(first + cells.len(), value))?;
+                cells.push(read);
+            }
+            Ok(())
+        })?;
+        Ok(cells)
+    }
+
+    /// Returns where cells stand in the file.
+    fn order(&self) -> Order {
+        Order { size: self.size, count: self.count, by_columns: self.values.header.fortran_order }
     }
 
     /// Returns the rows of one particle of an array stored by columns.
@@ -158,5 +160,30 @@ impl<R: Read> Maps<'_, R> {
             cells.extend(all[first..].iter().step_by(self.count * self.size.height).copied());
         }
         Ok(cells)
+    }
+}
+
+/// The order of the cells in a file.
+#[derive(Clone, Copy)]
+pub(super) struct Order {
+    pub(super) size: Size,
+    pub(super) count: usize,
+    pub(super) by_columns: bool,
+}
+
+impl Order {
+    /// Creates the error of the cell number `index` in the file, whose value is none.
+    pub(super) fn no_cell<E: Readable>(self, index: usize, value: f64) -> Error {
+        let Size { width, height } = self.size;
+        let (map, row, column) = if self.by_columns {
+            (index % self.count, index / self.count % height, index / self.count / height)
+        } else {
+            (index / width / height, index / width % height, index % width)
+        };
+        let refused = no_cell::<E>(row, column, value);
+        match self.count {
+            1 => refused,
+            _ => refused.in_map(map).preceded_by(&format!("particle {map}: ")),
+        }
     }
 }

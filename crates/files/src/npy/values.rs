@@ -16,22 +16,36 @@ impl<R: Read> Values<'_, R> {
     pub(super) fn take<S, const N: usize>(
         &mut self,
         count: usize,
-        of: fn([u8; N]) -> S,
+        of: impl Fn([u8; N]) -> S,
     ) -> Result<Vec<S>, Error> {
         let mut values = Vec::new();
-        let big_endian = self.header.big_endian;
-        read_pieces(&mut self.input, count, N, |piece| {
-            let elements = piece.as_chunks().0.iter();
-            reserve(&mut values, elements.len(), count)?;
-            values.extend(elements.map(|&bytes| {
-                let mut bytes: [u8; N] = bytes;
-                if big_endian {
-                    bytes.reverse();
-                }
-                of(bytes)
-            }));
+        self.pieces(count, |piece: &[[u8; N]]| {
+            reserve(&mut values, piece.len(), count)?;
+            values.extend(piece.iter().map(|&bytes| of(bytes)));
             Ok(())
         })?;
         Ok(values)
+    }
+
+    /// Gives the next `count` values of `N` bytes, the low one first, a piece at a time.
+    pub(super) fn pieces<const N: usize>(
+        &mut self,
+        count: usize,
+        mut each: impl FnMut(&[[u8; N]]) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        let big_endian = self.header.big_endian;
+        let mut swapped: Vec<[u8; N]> = Vec::new();
+        read_pieces(&mut self.input, count, N, |piece| {
+            let piece = piece.as_chunks().0;
+            if !big_endian {
+                return each(piece);
+            }
+            swapped.clear();
+            swapped.extend_from_slice(piece);
+            for bytes in &mut swapped {
+                bytes.reverse();
+            }
+            each(&swapped)
+        })
     }
 }

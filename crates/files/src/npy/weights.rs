@@ -29,6 +29,9 @@ pub fn read_weights(mut input: impl Read, length: u64, options: &Options) -> Res
         }
         Element::Float64 => values.take::<f64, 8>(count, f64::from_le_bytes),
         Element::Int8 => integers(&mut values, count, i8::from_le_bytes),
+        Element::Bool => Err(Error::new(ErrorKind::Unsupported, "holds bool")
+            .with_value("bool")
+            .allowing("; allowed ", header::WEIGHTS)),
         Element::Integer { bytes: 1, .. } => integers(&mut values, count, u8::from_le_bytes),
         Element::Integer { bytes: 2, signed: true } => integers(&mut values, count, i16::from_le_bytes),
         Element::Integer { bytes: 2, .. } => integers(&mut values, count, u16::from_le_bytes),
@@ -43,7 +46,7 @@ pub fn read_weights(mut input: impl Read, length: u64, options: &Options) -> Res
 fn integers<S: Into<i128>, const N: usize>(
     values: &mut Values<'_, impl Read>,
     count: usize,
-    of: fn([u8; N]) -> S,
+    of: impl Fn([u8; N]) -> S,
 ) -> Result<Vec<f64>, Error> {
     let mut exact = Vec::new();
     reserve(&mut exact, count, count)?;

@@ -1,13 +1,16 @@
 //! What the yaml file of a ROS map says.
 
+use super::text::text;
+use super::thresholds::Thresholds;
 use super::yaml::{Value, values};
 use crate::error::{Error, ErrorKind, Place};
 use crate::options::{Mode, Semantics};
+use crate::warning::Warning;
 use std::io::Read;
 
 /// The most bytes of a yaml file.
 const MOST_BYTES: u64 = 64 << 10;
-/// The keys that are read; the last is optional.
+/// The keys that are read; the last is optional, and the thresholds before it are where the mode uses none.
 const KEYS: [&str; 7] = ["image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh", "mode"];
 
 /// The description of a map by its yaml file.
@@ -21,20 +24,21 @@ pub struct Description {
     pub origin: [f64; 3],
     /// True if white is occupied.
     pub negate: bool,
-    /// The occupancy above which a cell is occupied.
-    pub occupied_thresh: f64,
-    /// The occupancy below which a cell is free; less than `occupied_thresh`.
-    pub free_thresh: f64,
+    /// The occupancy above which a cell is occupied, if the file says.
+    pub occupied_thresh: Option<f64>,
+    /// The occupancy below which a cell is free, if the file says.
+    pub free_thresh: Option<f64>,
     /// The meaning of grey levels; trinary if the file does not say.
     pub mode: Mode,
+    /// The signs that the file says something else than it seems to.
+    pub warnings: Vec<Warning>,
 }
 
 impl Description {
     /// Reads a description; `semantics` says how `negate` may be spelt.
     ///
     /// # Errors
-    /// An [`Error`] naming the key, its value and what is allowed; also for anchors, aliases, files above 64 KiB and
-    /// files of several documents.
+    /// An [`Error`] naming the key, its value and what is allowed; also for anchors, aliases and files above 64 KiB.
     pub fn read(input: impl Read, semantics: Semantics) -> Result<Self, Error> {
         let mut bytes = Vec::new();
         input.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
@@ -42,11 +46,9 @@ impl Description {
             let message = format!("is no map description: it is above {MOST_BYTES} bytes");
             return Err(Error::new(ErrorKind::Format, message));
         }
-        let text = std::str::from_utf8(&bytes).map_err(|error| {
-            let place = Place::Byte(error.valid_up_to() as u64);
-            Error::new(ErrorKind::Format, "is not UTF-8 text").at(place).caused_by(error)
-        })?;
-        let mut values = values(text, &KEYS)?;
+        let mut warnings = Vec::new();
+        let text = text(&bytes, &mut warnings)?;
+        let mut values = values(&text, &KEYS, &mut warnings)?;
         let mut take = |key: &str| values.remove(key);
 
         let image = scalar(take("image"), "image")?;
@@ -54,25 +56,36 @@ impl Description {
             return Err(Error::new(ErrorKind::OutOfRange, "image is empty")
                 .at(Place::Key("image"))
                 .with_value("")
-                .allowing(", allowed is ", "the path of a PGM or PNG file"));
+                .allowing(", allowed is ", "the path of an image file"));
         }
         let resolution =
             number(take("resolution"), "resolution", "a positive number of metres", |x| x > 0.0)?;
         let origin = origin(take("origin"))?;
         let negate = negate(&scalar(take("negate"), "negate")?, semantics)?;
-        let occupied_thresh = number(take("occupied_thresh"), "occupied_thresh", "a number", |_| true)?;
-        let free_thresh = number(take("free_thresh"), "free_thresh", "a number", |_| true)?;
-        if free_thresh >= occupied_thresh {
-            let allowed = format!("less than occupied_thresh, which is {occupied_thresh}");
-            return Err(
-                Error::out_of_range("free_thresh", free_thresh, allowed).at(Place::Key("free_thresh"))
-            );
-        }
+        let mut thresh = |key: &'static str| match take(key) {
+            None => Ok(None),
+            value => number(value, key, "a number", |_| true).map(Some),
+        };
+        let occupied_thresh = thresh("occupied_thresh")?;
+        let free_thresh = thresh("free_thresh")?;
         let mode = match take("mode") {
             None => Mode::Trinary,
             value => mode(&scalar(value, "mode")?)?,
         };
-        Ok(Self { image, resolution, origin, negate, occupied_thresh, free_thresh, mode })
+        Ok(Self { image, resolution, origin, negate, occupied_thresh, free_thresh, mode, warnings })
+    }
+
+    /// Returns the thresholds that `mode` uses; none for the modes that use none.
+    ///
+    /// # Errors
+    /// An [`Error`] naming the key that is missing.
+    pub(super) fn thresholds(&self, mode: Mode) -> Result<Option<Thresholds>, Error> {
+        if matches!(mode, Mode::Raw | Mode::Probability) {
+            return Ok(None);
+        }
+        let occupied = self.occupied_thresh.ok_or_else(|| missing("occupied_thresh"))?;
+        let free = self.free_thresh.ok_or_else(|| missing("free_thresh"))?;
+        Ok(Some(Thresholds { free, occupied }))
     }
 }
 
@@ -111,7 +124,18 @@ fn number(
 fn finite(text: &str, what: &str, key: &'static str, allowed: &str) -> Result<f64, Error> {
     match text.parse::<f64>() {
         Ok(x) if x.is_finite() => Ok(x),
-        _ => Err(quoted(what, text, key).allowing(", allowed is ", format!("{allowed}, finite"))),
+        _ => {
+            let refused = quoted(what, text, key).allowing(", allowed is ", format!("{allowed}, finite"));
+            let no_number = text.trim_start_matches(['-', '+', '.']).eq_ignore_ascii_case("nan");
+            Err(match key {
+                "origin" if no_number && what.starts_with("yaw") => {
+                    refused.followed_by("; write 0.0 for a map that is not turned")
+                }
+                "origin" if no_number => refused.followed_by("; write 0.0 where the place does not matter"),
+                _ if text.contains(',') => refused.followed_by("; write a point, not a comma"),
+                _ => refused,
+            })
+        }
     }
 }
 
@@ -142,17 +166,17 @@ fn origin(value: Option<Value>) -> Result<[f64; 3], Error> {
     ])
 }
 
-/// Parses whether white is occupied. Both loaders take an integer; nav2 takes YAML 1.1's booleans as well.
+/// Parses whether white is occupied. All loaders take an integer; nav2 takes YAML 1.1's booleans as well.
 fn negate(text: &str, semantics: Semantics) -> Result<bool, Error> {
     if let Ok(number) = text.parse::<i32>() {
         return Ok(number != 0);
     }
     let wrong = |allowed: &'static str| quoted("negate", text, "negate").allowing(", allowed are ", allowed);
     match (semantics, text.to_ascii_lowercase().as_str()) {
-        (Semantics::Nav2, "y" | "yes" | "true" | "on") => Ok(true),
-        (Semantics::Nav2, "n" | "no" | "false" | "off") => Ok(false),
-        (Semantics::Nav2, _) => Err(wrong("0, 1, true and false")),
         (Semantics::Ros1, _) => Err(wrong("0 and 1 (nav2 semantics allow true and false)")),
+        (_, "y" | "yes" | "true" | "on") => Ok(true),
+        (_, "n" | "no" | "false" | "off") => Ok(false),
+        _ => Err(wrong("0, 1, true and false")),
     }
 }
 

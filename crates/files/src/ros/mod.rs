@@ -2,13 +2,17 @@
 //! levels that they read as they were meant.
 
 mod description;
+mod missing_image;
 mod nav2;
+mod nav2_humble;
 mod pixel_table;
 mod probability;
 mod reading;
 mod ros1;
 mod sink;
 mod suspects;
+mod text;
+mod thresholds;
 mod write;
 mod yaml;
 

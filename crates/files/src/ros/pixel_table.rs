@@ -4,10 +4,7 @@
 //! value. So a cell is one look-up, and what a sum means is computed once.
 
 use super::suspects::SuspectGrey;
-use crate::error::Error;
-use crate::image::{Image, Layout};
-use crate::size::reserve;
-use std::io::{BufRead, Seek};
+use crate::image::Layout;
 use std::ops::Range;
 
 /// A look-up table from the pixels of one layout to cells.
@@ -20,9 +17,11 @@ pub(crate) struct PixelTable<C> {
     /// The alpha below which `clear` holds instead.
     opaque_from: u16,
     clear: Vec<C>,
+    /// What is to be said of pixels below it.
+    see_through: Option<SuspectGrey>,
 }
 
-impl<C: Copy> PixelTable<C> {
+impl<C: Copy + PartialEq> PixelTable<C> {
     /// Tabulates `entry`, a cell and why it is to be counted, over all values of the weighted sum of a pixel's samples.
     pub(super) fn new(
         layout: &Layout,
@@ -44,42 +43,31 @@ impl<C: Copy> PixelTable<C> {
             }
             opaque.push(cell);
         }
-        Self { weights, opaque, watched, opaque_from: 0, clear: Vec::new() }
+        Self { weights, opaque, watched, opaque_from: 0, clear: Vec::new(), see_through: None }
     }
 
-    /// Turns pixels whose alpha is below `opaque_from` into `clear` of their opaque cell, and does not count them.
-    pub(super) fn with_alpha(mut self, opaque_from: u16, clear: impl Fn(C) -> C) -> Self {
+    /// Turns pixels whose alpha is below `opaque_from` into `clear` of their opaque cell, and counts those that this
+    /// changes, or all of them where alpha is averaged.
+    pub(super) fn with_alpha(
+        mut self,
+        opaque_from: u16,
+        see_through: Option<SuspectGrey>,
+        clear: impl Fn(C) -> C,
+    ) -> Self {
         self.opaque_from = opaque_from;
+        self.see_through = see_through;
         self.clear = self.opaque.iter().map(|&cell| clear(cell)).collect();
         self
     }
 
-    /// Appends the cells of some pixels, and counts the watched ones.
-    fn extend(&self, cells: &mut Vec<C>, counts: &mut [u64], layout: &Layout, pixels: &[u8]) {
+    /// Appends the cells of some pixels.
+    pub(super) fn extend(&self, cells: &mut Vec<C>, layout: &Layout, pixels: &[u8]) {
         if layout.pixel_bytes() == 1
             && let Ok(table) = <&[C; 256]>::try_from(self.opaque.as_slice())
         {
-            return self.extend_by(table, cells, counts, pixels);
-        }
-        self.indices(layout, pixels, |at| {
-            let TableIndex::Opaque(index) = at else {
-                return cells.push(self.cell(at));
-            };
-            for (count, (_, sums)) in counts.iter_mut().zip(&self.watched) {
-                *count += u64::from(sums.contains(&index));
-            }
-            cells.push(self.opaque[index]);
-        });
-    }
-
-    /// Appends the cells of pixels that are their own index.
-    fn extend_by(&self, table: &[C; 256], cells: &mut Vec<C>, counts: &mut [u64], pixels: &[u8]) {
-        cells.extend(pixels.iter().map(|&pixel| table[usize::from(pixel)]));
-        for (count, (_, sums)) in counts.iter_mut().zip(&self.watched) {
-            let (first, span) = (sums.start as u8, (sums.len() - 1) as u8);
-            // In 32 bits, which holds the longest piece, for the sake of vector code.
-            let inside = |&pixel: &u8| u32::from(pixel.wrapping_sub(first) <= span);
-            *count += u64::from(pixels.iter().map(inside).sum::<u32>());
+            cells.extend(pixels.iter().map(|&pixel| table[usize::from(pixel)]));
+        } else {
+            self.indices(layout, pixels, |at| cells.push(self.cell(at)));
         }
     }
 
@@ -96,9 +84,23 @@ impl<C: Copy> PixelTable<C> {
         [self.opaque.len(), self.clear.len()]
     }
 
-    /// Returns what is counted, and its indices in the first table.
-    pub(super) fn watched(&self) -> &[(SuspectGrey, Range<usize>)] {
-        &self.watched
+    /// Returns the weighted sum of white, unless alpha is averaged with it.
+    pub(super) fn white(&self) -> Option<usize> {
+        (self.see_through != Some(SuspectGrey::AlphaAveraged)).then(|| self.opaque.len() - 1)
+    }
+
+    /// Returns what there is to say of pixels that were counted by their places in the two tables.
+    pub(super) fn suspects(&self, opaque: &[u64], clear: &[u64]) -> Vec<(SuspectGrey, u64)> {
+        let of =
+            |(suspect, sums): &(SuspectGrey, Range<usize>)| (*suspect, opaque[sums.clone()].iter().sum());
+        let mut suspects: Vec<_> = self.watched.iter().map(of).collect();
+        suspects.extend(self.see_through.map(|why| {
+            let cells = self.opaque.iter().zip(&self.clear).zip(clear);
+            let speaks =
+                cells.filter(|((before, after), _)| why == SuspectGrey::AlphaAveraged || before != after);
+            (why, speaks.map(|(_, count)| count).sum())
+        }));
+        suspects
     }
 
     /// Gives where the cells of some pixels are in the tables, one after the other.
@@ -143,31 +145,8 @@ pub(super) enum TableIndex {
     Clear(usize),
 }
 
-/// The cells of an image, the lowest row first, and how many of them were watched, by the reason.
-type Painted<C> = (Vec<C>, Vec<(SuspectGrey, u64)>);
-
-/// Reads the pixels of an image into cells.
-pub(super) fn paint<C: Copy, R: BufRead + Seek>(
-    image: Image<R>,
-    table: &PixelTable<C>,
-) -> Result<Painted<C>, Error> {
-    let layout = image.layout();
-    let total = layout.size.cells();
-    let mut cells = Vec::new();
-    let mut counts = vec![0; table.watched.len()];
-    image.pixels(|pixels| {
-        reserve(&mut cells, pixels.len() / layout.pixel_bytes(), total)?;
-        table.extend(&mut cells, &mut counts, &layout, pixels);
-        Ok(())
-    })?;
-    layout.require(cells.len() as u64)?;
-    turn_over(&mut cells, layout.size.width);
-    let reasons = table.watched.iter().map(|&(suspect, _)| suspect);
-    Ok((cells, reasons.zip(counts).collect()))
-}
-
 /// Puts the last row first.
-fn turn_over<C>(cells: &mut [C], width: usize) {
+pub(super) fn turn_over<C>(cells: &mut [C], width: usize) {
     let mut rows = cells.chunks_exact_mut(width);
     while let (Some(low), Some(high)) = (rows.next(), rows.next_back()) {
         low.swap_with_slice(high);

@@ -11,19 +11,19 @@ use crate::image::Layout;
 pub(super) fn table(
     description: &Description,
     layout: &Layout,
-    unknown: Option<u16>,
+    unknown: Option<f64>,
 ) -> Result<PixelTable<f64>, Error> {
     let weights = layout.colour_sum();
     let samples: u32 = weights.iter().sum();
     let own = u32::from(layout.max / layout.white) * samples;
     let unknown_sum = match unknown {
-        Some(level) if level > layout.white => {
+        Some(level) if !(0.0..=f64::from(layout.white)).contains(&level) || level.fract() != 0.0 => {
             let message = format!("the unknown grey level {level} is none of this image");
             return Err(Error::new(ErrorKind::OutOfRange, message)
                 .with_value(level.to_string())
                 .allowing("; allowed is ", format!("0 to {}", layout.white)));
         }
-        level => level.map(|level| u32::from(level) * own),
+        level => level.map(|level| level as u32 * own),
     };
     let white = samples * u32::from(layout.max);
     let table = PixelTable::new(layout, weights, |sum| {
@@ -32,5 +32,9 @@ pub(super) fn table(
         let grey = (unknown.is_none() && sum % own == 0).then_some((sum / own) as u16);
         (p, grey.and_then(|grey| SuspectGrey::often_unknown(grey, layout.white)))
     });
-    Ok(if layout.channels.alpha() { table.with_alpha(layout.max, |_| 0.5) } else { table })
+    Ok(if layout.channels.alpha() {
+        table.with_alpha(layout.max, Some(SuspectGrey::SeeThrough), |_| 0.5)
+    } else {
+        table
+    })
 }

@@ -1,14 +1,16 @@
 //! A ROS map from its two files.
 
 use super::description::Description;
-use super::sink::Sink;
-use super::suspects::{SuspectGrey, of_image};
-use super::{nav2, probability, ros1};
-use crate::error::Error;
-use crate::image::{Colours, Image};
+use super::missing_image::missing_image;
+use super::sink::{Found, Sink};
+use super::suspects::{SuspectGrey, greys_thresholded, of_image};
+use super::{nav2, nav2_humble, probability, ros1};
+use crate::error::{Error, ErrorKind};
+use crate::image::{Colours, Image, Rest};
 use crate::map::Map;
 use crate::options::{Mode, Options, Semantics};
-use crate::source::Source;
+use crate::source::{Source, open};
+use crate::warning::Warning;
 use mean_information::map::encoding::{Percent, Probability};
 use std::io::{BufRead, Seek};
 use std::path::Path;
@@ -21,8 +23,15 @@ pub(crate) fn read<K: Sink>(
     options: &Options,
 ) -> Result<Map<K>, Error> {
     let description = Description::read(input, options.semantics)?;
+    description.thresholds(options.mode.unwrap_or(description.mode))?;
     let image = path.parent().unwrap_or(Path::new("")).join(&description.image);
-    let read = source.open(&image).and_then(|file| read_image_as(file.input, &description, options));
+    let opened = match open(source, &image) {
+        Err(error) if error.kind() == ErrorKind::NotFound => {
+            return Err(missing_image(source, path, &description.image, &image, error));
+        }
+        opened => opened,
+    };
+    let read = opened.and_then(|file| read_image_as(file.input, &description, options));
     let mut map = read.map_err(|error| error.in_file(&image))?;
     map.files.push(image);
     Ok(map)
@@ -47,29 +56,41 @@ fn read_image_as<K: Sink>(
     options: &Options,
 ) -> Result<Map<K>, Error> {
     let mode = options.mode.unwrap_or(description.mode);
+    let thresholds = description.thresholds(mode)?;
     let colours = match (mode, options.semantics) {
-        (Mode::Probability, _) => Colours::Meant,
+        (Mode::Probability, _) | (_, Semantics::Nav2Humble) => Colours::Meant,
         (_, Semantics::Nav2) => Colours::MeantIn8Bits,
         (_, Semantics::Ros1) => Colours::Sdl,
     };
-    let image = Image::open(input, colours, K::max_pixels(options))?;
+    let image = Image::open(input, &description.image, colours, K::max_pixels(options))?;
     let layout = image.layout();
     let [x, y, yaw] = description.origin;
     let geometry = layout.size.placed(description.resolution, [x, y], yaw)?;
 
-    let mut warnings = Vec::new();
-    let (cells, suspects) = if mode == Mode::Probability {
+    let mut warnings = description.warnings.clone();
+    warnings.extend(thresholds.into_iter().flat_map(|thresholds| thresholds.warnings(options.semantics)));
+    warnings.extend(image.is_jpeg().then_some(Warning::JpegLevels));
+    let (cells, Found { suspects, sums, white, rest }) = if mode == Mode::Probability {
         let table = probability::table(description, &layout, options.unknown)?;
         K::take::<Probability<f64>>(image, &table, geometry)?
     } else {
         let table = match options.semantics {
-            Semantics::Nav2 => nav2::table(description, mode, &layout),
-            Semantics::Ros1 => ros1::table(description, mode, &layout),
+            Semantics::Nav2 => nav2::table,
+            Semantics::Nav2Humble => nav2_humble::table,
+            Semantics::Ros1 => ros1::table,
         };
         warnings.extend(of_image(options.semantics, &image));
-        K::take::<Percent>(image, &table, geometry)?
+        K::take::<Percent>(image, &table(description, mode, thresholds, &layout), geometry)?
     };
     let warning = |(suspect, count): (SuspectGrey, u64)| suspect.warning(count, &layout, mode, description);
     warnings.extend(suspects.into_iter().filter_map(warning));
+    if let (Mode::Trinary, Some(white)) = (mode, white) {
+        warnings.extend(greys_thresholded(&sums, white, &layout));
+    }
+    warnings.extend(match rest {
+        Rest::Nothing => None,
+        Rest::More => Some(Warning::BytesAfterImage),
+        Rest::LineEnd => Some(Warning::PgmLineEnd),
+    });
     Ok(Map { cells, resolution: Some(description.resolution), warnings, files: Vec::new() })
 }

@@ -7,12 +7,18 @@
 use super::description::Description;
 use super::pixel_table::PixelTable;
 use super::suspects::SuspectGrey;
+use super::thresholds::Thresholds;
 use crate::image::{Channels, Layout};
 use crate::options::Mode;
 use crate::warning::SAVED_UNKNOWN;
 
 /// Tabulates the rules for an image of this layout.
-pub(super) fn table(description: &Description, mode: Mode, layout: &Layout) -> PixelTable<i8> {
+pub(super) fn table(
+    description: &Description,
+    mode: Mode,
+    thresholds: Option<Thresholds>,
+    layout: &Layout,
+) -> PixelTable<i8> {
     let alpha_averaged = mode == Mode::Trinary || layout.channels == Channels::GreyKeyed;
     let weights = match layout.channels {
         // SDL_image turns grey and alpha into four samples.
@@ -28,28 +34,31 @@ pub(super) fn table(description: &Description, mode: Mode, layout: &Layout) -> P
         // A single sample of another maximum is first brought to 255, without rounding; of 255 it stays as it is.
         let sum = if samples == 1 { sum * 255 / max } else { sum };
         let average = f64::from(sum) / f64::from(samples);
-        if mode == Mode::Raw {
+        let Some(thresholds) = thresholds else {
             let value = (if description.negate { 255.0 - average } else { average }) as u8 as i8;
             let allowed = (-1..=100).contains(&value);
             return if allowed { (value, None) } else { (-1, Some(SuspectGrey::OutOfRange)) };
-        }
-        let percent = percent(description, mode, average);
+        };
+        let percent = percent(description, mode, thresholds, average);
         let is_saved = sum == samples * u32::from(SAVED_UNKNOWN);
         let is_grey = !(alpha_averaged && layout.channels.alpha());
         (percent, SuspectGrey::saved_unknown(percent).filter(|_| is_saved && is_grey))
     });
     if mode == Mode::Scale && layout.channels.count() > 1 {
-        table.with_alpha(1, |percent| if (1..=99).contains(&percent) { -1 } else { percent })
+        let see_through = layout.channels.alpha().then_some(SuspectGrey::SeeThrough);
+        table.with_alpha(1, see_through, |percent| if (1..=99).contains(&percent) { -1 } else { percent })
+    } else if mode == Mode::Trinary && layout.channels.alpha() {
+        table.with_alpha(layout.max, Some(SuspectGrey::AlphaAveraged), |percent| percent)
     } else {
         table
     }
 }
 
 /// Returns the percentage of a grey.
-fn percent(description: &Description, mode: Mode, average: f64) -> i8 {
+fn percent(description: &Description, mode: Mode, thresholds: Thresholds, average: f64) -> i8 {
     let average = if description.negate { 255.0 - average } else { average };
     let occupancy = (255.0 - average) / 255.0;
-    let (free, occupied) = (description.free_thresh, description.occupied_thresh);
+    let Thresholds { free, occupied } = thresholds;
     if occupancy > occupied {
         100
     } else if occupancy < free {

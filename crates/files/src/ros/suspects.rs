@@ -16,6 +16,10 @@ pub(crate) enum SuspectGrey {
     SavedUnknown(i8),
     /// In probability mode, a grey (of the image's own depth) that is often meant as unknown.
     OftenUnknown(u16),
+    /// Unknown because the pixel is not opaque.
+    SeeThrough,
+    /// Not opaque, and its alpha averaged as a colour.
+    AlphaAveraged,
 }
 
 impl SuspectGrey {
@@ -44,6 +48,8 @@ impl SuspectGrey {
         let much = count.saturating_mul(5) > layout.size.cells() as u64;
         match self {
             _ if count == 0 => None,
+            Self::SeeThrough => Some(Warning::TransparentReadAsUnknown { count }),
+            Self::AlphaAveraged => Some(Warning::AlphaAveraged { count }),
             Self::OutOfRange => Some(Warning::OutOfRangeReadAsUnknown { count }),
             Self::SavedUnknown(percent) if mode == Mode::Trinary || percent == 0 || much => {
                 let lower = mode == Mode::Trinary && !description.negate;
@@ -52,7 +58,7 @@ impl SuspectGrey {
                     percent,
                     count,
                     mode,
-                    free_thresh: lower.then_some(description.free_thresh),
+                    free_thresh: description.free_thresh.filter(|_| lower),
                 })
             }
             Self::OftenUnknown(grey) if much => Some(Warning::OftenUnknownObserved { grey, count }),
@@ -65,12 +71,35 @@ impl SuspectGrey {
 pub(super) fn of_image<R: BufRead + Seek>(semantics: Semantics, image: &Image<R>) -> Option<Warning> {
     let white = image.layout().white;
     match (semantics, image) {
-        (Semantics::Nav2, Image::Png(png)) if png.is_cut() => Some(Warning::SixteenBits),
+        (Semantics::Nav2, image) if image.is_cut() => Some(Warning::SixteenBits),
         (Semantics::Ros1, Image::Pgm(_)) if white > 255 => Some(Warning::PgmMaximumRefused { white }),
-        (Semantics::Nav2, Image::Pgm(_)) if white != 255 && white != 65535 => {
+        (Semantics::Nav2 | Semantics::Nav2Humble, Image::Pgm(_)) if white != 255 && white != 65535 => {
             Some(Warning::PgmMaximum { white })
         }
-        (Semantics::Ros1, Image::Png(png)) if png.is_indices() => Some(Warning::PaletteIndices),
+        (Semantics::Ros1, image) if image.is_indices() => Some(Warning::PaletteIndices),
         _ => None,
     }
+}
+
+/// Greys that a thresholded map may have beside black and white: savers write 254 for free and 205 for unknown.
+const SAVED_FREE: u8 = 254;
+
+/// Returns the warning of a trinary image with many greys between those of the three states: where, of the cells of other
+/// greys than the one most often used, over a tenth has one of three or more greys that are neither black, white, nor what
+/// savers write.
+pub(super) fn greys_thresholded(sums: &[(usize, u64)], white: usize, layout: &Layout) -> Option<Warning> {
+    let level = |sum: usize| (sum * 255 + white / 2) / white;
+    let (commonest, most) = sums.iter().copied().max_by_key(|&(_, count)| count)?;
+    let others: u64 = sums.iter().map(|&(_, count)| count).sum::<u64>() - most;
+    let known = [0, SAVED_FREE, 255, SAVED_UNKNOWN].map(usize::from);
+    let between = |&&(sum, _): &&(usize, u64)| sum != commonest && !known.contains(&level(sum));
+    let (kinds, count) =
+        sums.iter().filter(between).fold((0, 0), |(kinds, sum), &(_, count)| (kinds + 1, sum + count));
+    if kinds < 3 || count * 10 <= others {
+        return None;
+    }
+    let often = |&&(sum, _): &&(usize, u64)| [127, 128, SAVED_UNKNOWN].map(usize::from).contains(&level(sum));
+    let unknown = sums.iter().filter(often).max_by_key(|&&(_, count)| count);
+    let own = |sum: usize| (sum * usize::from(layout.white) / white) as u16;
+    Some(Warning::GreysThresholded { levels: sums.len(), count, unknown: unknown.map(|&(sum, _)| own(sum)) })
 }

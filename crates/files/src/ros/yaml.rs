@@ -1,8 +1,10 @@
 //! The keys and values of a yaml file, read by events: no document is built, so a small file cannot become a large one.
 
 use crate::error::{Error, ErrorKind, Place};
+use crate::warning::Warning;
 use saphyr_parser::{Event, Parser, StrInput};
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 
 /// The value of a key.
 pub(super) enum Value {
@@ -12,9 +14,14 @@ pub(super) enum Value {
     List(Vec<String>),
 }
 
-/// Reads the values of `keys` of the one mapping that a text is; none of a text without documents.
-pub(super) fn values(text: &str, keys: &[&'static str]) -> Result<HashMap<&'static str, Value>, Error> {
-    Events { text, parser: Parser::new_from_str(text) }.values(keys)
+/// Reads the values of `keys` of the mapping that a text begins with; none of a text without documents. As in yaml-cpp the
+/// first of equal keys holds, and what follows the first document is not looked at; `warnings` say so.
+pub(super) fn values(
+    text: &str,
+    keys: &[&'static str],
+    warnings: &mut Vec<Warning>,
+) -> Result<HashMap<&'static str, Value>, Error> {
+    Events { text, parser: Parser::new_from_str(text) }.values(keys, warnings)
 }
 
 /// The events of a file, without anchors and aliases.
@@ -56,8 +63,12 @@ impl<'a> Events<'a> {
         Ok(event)
     }
 
-    /// Reads the values of `keys` of the one mapping that the file is.
-    fn values(mut self, keys: &[&'static str]) -> Result<HashMap<&'static str, Value>, Error> {
+    /// Reads the values of `keys` of the mapping that is the first document.
+    fn values(
+        mut self,
+        keys: &[&'static str],
+        warnings: &mut Vec<Warning>,
+    ) -> Result<HashMap<&'static str, Value>, Error> {
         let mut values = HashMap::new();
         loop {
             match self.next()? {
@@ -83,10 +94,9 @@ impl<'a> Events<'a> {
                             .at(Place::Key(key))
                             .allowing(", allowed is ", "a value"));
                     };
-                    if values.insert(key, value).is_some() {
-                        return Err(Error::new(ErrorKind::Format, format!("the key {key} occurs twice"))
-                            .at(Place::Key(key))
-                            .allowing(", allowed is ", "once"));
+                    match values.entry(key) {
+                        Entry::Vacant(entry) => _ = entry.insert(value),
+                        Entry::Occupied(_) => warnings.push(Warning::RepeatedKey { key }),
                     }
                 }
                 start => {
@@ -95,11 +105,12 @@ impl<'a> Events<'a> {
                 }
             }
         }
-        match (self.next()?, self.next()?) {
-            (Event::DocumentEnd, Event::StreamEnd) => Ok(values),
-            _ => Err(Error::new(ErrorKind::Unsupported, "holds more than one YAML document")
-                .allowing(", allowed is ", "one")),
+        // What follows on the lines of the document itself belongs to it; another document does not.
+        let end = self.next()?;
+        if !matches!(end, Event::DocumentEnd) || !matches!(self.next(), Ok(Event::StreamEnd)) {
+            warnings.push(Warning::MoreDocuments);
         }
+        Ok(values)
     }
 
     /// Reads the next value; `None` if it is a mapping, or a list of other things than scalars.

@@ -98,7 +98,10 @@ fn the_first_bad_cell_is_named() {
     bytes[5 * 8..].copy_from_slice(&1.5_f64.to_le_bytes());
     let refused = refusal("map.npy", npy("'<f8'", false, "(2, 3)", &bytes), &Options::default());
     assert!(
-        refused.ends_with("cell at row 1, column 1 is NaN, allowed is a probability from 0 to 1"),
+        refused.ends_with(
+            "cell at row 1, column 1 is NaN, allowed is a probability from 0 to 1; np.nan_to_num(p, nan=0.5) makes NaN \
+             unknown"
+        ),
         "{refused}"
     );
 
@@ -127,7 +130,6 @@ fn what_is_no_map_is_refused() {
         (npy("'<f8'", false, "(1, 2, 3)", &six), "3 dimensions"),
         (npy("'<f8'", false, "(6,)", &six), "1 dimension"),
         (npy("[('p', '<f8')]", false, "(2, 3)", &six), "structured"),
-        (npy("'<f8'", false, "(2147483648, 2147483648)", &six), "more than the limit of 268435456"),
         (npy("'<f8'", false, "(100000, 1000)", &six), "claims 800000128"),
         ([&b"\x93NUMPY\x02\x00\xff\xff\xff\xff"[..], &six].concat(), "claims a header of 4294967295 bytes"),
         ([&b"\x93NUMPY\x04\x00\x10\x00\x00\x00"[..], &six].concat(), "version 4"),

@@ -1,6 +1,6 @@
 //! ROS maps and file names that must be refused, with the file, what is wrong and what is allowed.
 
-use crate::support::{read_twice, refusal, refusal_of};
+use crate::support::{Nobody, read_twice, refusal, refusal_of};
 use mean_information_files::{Mode, Options, Semantics, read_map, read_map_contents};
 use mean_information_test_support::formats::{Folder, pgm, raw_png, yaml, zlib};
 use std::fs;
@@ -24,7 +24,7 @@ fn names_that_are_no_map() {
         let refused = refusal_of(&folder.path(name), &options);
         assert!(refused.contains("is a directory; allowed are map files: .yaml"), "{refused}");
     }
-    assert!(refusal("map.txt", "text", &options).contains("allowed are .yaml, .yml, .npy, .gridmap"));
+    assert!(refusal("map.txt", "text", &options).contains("allowed are .yaml, .yml, .npy, .npz, .gridmap"));
     assert!(refusal("map", "text", &options).contains("allowed are .yaml"));
     assert!(refusal("map.pgm", "P5 1 1 255 x", &options).contains("give the yaml file"));
     assert!(refusal("map\nof\ttwo lines.txt", "text", &options).contains("map\\nof\\ttwo lines.txt"));
@@ -43,29 +43,13 @@ fn descriptions_that_are_no_description() {
         ("# nothing\n".into(), "the key image is missing"),
         ("just text".into(), "no map description"),
         ("- image: image.pgm".into(), "no map description"),
-        (format!("{good}---\n{good}"), "more than one YAML document"),
-        (format!("{good}image: other.pgm\n"), "the key image occurs twice"),
         (format!("{good}a: [1, 2"), "malformed YAML in line"),
         (format!("{good}\t- x"), "malformed YAML in line"),
-        // Legal, but the parser wants a space before a plain value.
-        (
-            with("negate", "0").replace("negate: ", "negate:\t"),
-            "line 6: the line has a tab; write a space instead",
-        ),
-        (
-            with("image", "image.pgm").replace("image: ", "image:\t"),
-            "the line has a tab; write a space instead",
-        ),
         (format!("{good}other: &a [1]\n"), "anchor or alias"),
         (format!("{good}other: *a\n"), "malformed YAML in line 7"),
         (with("image", "''"), "image is empty"),
         (with("image", "[image.pgm]"), "image is a list"),
         (with("image", "{a: b}"), "image is a mapping"),
-        (
-            with("free_thresh", "0.65"),
-            "free_thresh is 0.65, allowed is less than occupied_thresh, which is 0.65",
-        ),
-        (with("free_thresh", "0.7"), "free_thresh is 0.7, allowed is less than"),
         (with("negate", "maybe"), "negate is \"maybe\", allowed are 0, 1, true and false"),
         (format!("{good}mode: probability\n"), "mode is \"probability\", allowed are trinary, scale and raw"),
         (format!("{good}mode: \n"), "mode is"),
@@ -75,6 +59,9 @@ fn descriptions_that_are_no_description() {
         (with("origin", "[0, [0], 0]"), "origin is a mapping or nested"),
         (with("origin", "[0, .inf, 0]"), "y of the origin is \".inf\""),
         (with("origin", "[0, 0, north]"), "yaw of the origin is \"north\""),
+        (with("origin", "[0, 0, -nan]"), "radians, finite; write 0.0 for a map that is not turned"),
+        (with("origin", "[.nan, 0, 0]"), "metres, finite; write 0.0 where the place does not matter"),
+        (with("resolution", "0,05"), "write a point, not a comma"),
         ("x".repeat(65_537), "above 65536 bytes"),
         (format!("{good}deep: {}", "[".repeat(60_000)), "malformed YAML"),
         (format!("{good}deep: {}", "{a: ".repeat(15_000)), "malformed YAML"),
@@ -123,12 +110,8 @@ fn images_that_do_not_hold_what_they_claim() {
     let good = pgm(2, 2, 255, &four);
     let cases: Vec<(Vec<u8>, &str)> = vec![
         (Vec::new(), "the file is empty"),
-        (b"GIF89a".to_vec(), "allowed are PGM (P2, P5) and PNG"),
-        (b"P6 1 1 255 abc".to_vec(), "allowed are PGM (P2, P5) and PNG"),
         (good[..good.len() - 1].to_vec(), "cut short"),
-        ([good.as_slice(), &[7]].concat(), "holds more than the 4 pixels"),
         (b"P2 2 2 255 1 2 3".to_vec(), "holds 3 pixels, its header claims 4"),
-        (b"P2 2 2 255 1 2 3 4 5".to_vec(), "holds more than the 4 pixels"),
         (b"P2 2 2 255 1 2 x 4".to_vec(), "a number is malformed"),
         (b"P2 2 2 100 1 2 101 4".to_vec(), "image row 1, column 0 is above the maximum value 100"),
         (b"P2 2 2 100 1 2 99999999999 4".to_vec(), "a number is malformed"),
@@ -154,13 +137,9 @@ fn pngs_that_do_not_hold_what_they_claim() {
     let idat = |data: &[u8]| ("IDAT", zlib(data));
     let rows = [0, 1, 2, 3, 0, 4, 5, 6];
     let good = raw_png(3, 2, 8, 0, 0, &[idat(&rows)]);
-    let interlaced = raw_png(1, 1, 8, 0, 1, &[idat(&rows[..2])]);
     let cases: Vec<(Vec<u8>, &str)> = vec![
         (good[..8].to_vec(), "cut short"),
         (good[..30].to_vec(), "cut short"),
-        ([&good[..], &[0]].concat(), "goes on after the end of the PNG; allowed is one image"),
-        ([&good[..], &good].concat(), "goes on after the end of the PNG"),
-        ([&interlaced[..], b"more"].concat(), "goes on after the end of the PNG"),
         (good[..good.len() - 20].to_vec(), "cut short"),
         (good[..good.len() - 4].to_vec(), "cut short"),
         (raw_png(3, 2, 8, 0, 0, &[]), "malformed PNG"),
@@ -199,7 +178,7 @@ fn an_unknown_grey_that_the_image_cannot_hold_is_refused() {
     let folder = Folder::new();
     folder.write("image.pgm", pgm(2, 2, 100, &[1, 2, 3, 4]));
     let map = folder.write("map.yaml", yaml("image.pgm", "negate: 0\n"));
-    let options = Options { mode: Some(Mode::Probability), unknown: Some(101), ..Options::default() };
+    let options = Options { mode: Some(Mode::Probability), unknown: Some(101.0), ..Options::default() };
     assert!(
         refusal_of(&map, &options)
             .contains("unknown grey level 101 is none of this image; allowed is 0 to 100")
@@ -249,7 +228,7 @@ fn counted_pixels_have_a_limit_of_their_own() {
         let map = folder.write("map.yaml", yaml(name, "negate: 0\n"));
         let refused = read_map(&map, &Options::default()).unwrap_err().to_string();
         assert!(refused.contains(name) && refused.contains(kept), "{refused}: {kept}");
-        let refused = read_map_contents(&map, &Options::default()).unwrap_err().to_string();
+        let refused = read_map_contents(&map, &Options::default(), &mut Nobody).unwrap_err().to_string();
         assert!(refused.contains(name) && refused.contains(counted), "{refused}: {counted}");
     }
     // What is said holds for both.

@@ -39,10 +39,11 @@ fn a_missing_file_is_not_found_and_its_cause_is_kept() {
     assert_eq!(parts(&refused), (ErrorKind::NotFound, path.to_str(), None, None, None));
     let cause: &io::Error = refused.source().unwrap().downcast_ref().unwrap();
     assert_eq!(cause.kind(), io::ErrorKind::NotFound);
-    // The image is named, not the yaml file.
+    // Of an image the yaml file is named, where it must be mended.
     folder.write("map.yaml", yaml("hall.pgm", "negate: 0\n"));
     let refused = read_map(&path, &Options::default()).unwrap_err();
-    assert_eq!((refused.kind(), refused.file()), (ErrorKind::NotFound, Some(&*folder.path("hall.pgm"))));
+    let place = Some(Place::Key("image"));
+    assert_eq!(parts(&refused), (ErrorKind::NotFound, path.to_str(), place, Some("hall.pgm"), None));
     let refused = read_map_from(&Memory::new(), Path::new("map.npy"), &Options::default()).unwrap_err();
     assert_eq!(parts(&refused), (ErrorKind::NotFound, Some("map.npy"), None, None, None));
 }
@@ -124,10 +125,10 @@ fn a_broken_format_has_its_place() {
 
 #[test]
 fn what_is_not_read_is_unsupported() {
-    let refused = refused_image(b"GIF89a", &Options::default());
-    let allowed = Some("PGM (P2, P5) and PNG");
+    let refused = refused_image(b"%PDF-1.7", &Options::default());
+    let allowed = Some("PGM, PNG, BMP, PPM, PBM, JPEG, TIFF, GIF, WebP and TGA");
     let place = Some(Place::Byte(0));
-    assert_eq!(parts(&refused), (ErrorKind::Unsupported, Some("image"), place, Some("GIF8"), allowed));
+    assert_eq!(parts(&refused), (ErrorKind::Unsupported, Some("image"), place, Some("%PDF"), allowed));
     let bytes = GridMap { version: 8, ..GridMap::small() }.bytes();
     let refused = gridmap::read(&bytes[..], &Options::default()).unwrap_err();
     assert_eq!(parts(&refused), (ErrorKind::Unsupported, None, None, Some("8"), Some("2 to 7")));
@@ -148,7 +149,7 @@ fn a_value_out_of_range_is_there_with_its_place() {
 
     let refused = refused_image(&pgm(2, 2, 300, &[300, 7, 301, 0]), &Options::default());
     assert_eq!(refused.place(), Some(&Place::Pixel { row: 1, column: 0 }));
-    let options = Options { mode: Some(Mode::Probability), unknown: Some(256), ..Options::default() };
+    let options = Options { mode: Some(Mode::Probability), unknown: Some(256.0), ..Options::default() };
     let refused = refused_image(&pgm(1, 2, 255, &[3, 7]), &options);
     assert_eq!((refused.value(), refused.allowed()), (Some("256"), Some("0 to 255")));
     let text = yaml("image", "negate: 0\n").replace("0.125", "north");
@@ -194,7 +195,7 @@ fn too_large_and_out_of_memory_are_two_kinds() {
 
 #[test]
 fn options_that_contradict_one_another_are_refused() {
-    let options = Options { unknown: Some(127), mode: Some(Mode::Scale), ..Options::default() };
+    let options = Options { unknown: Some(127.0), mode: Some(Mode::Scale), ..Options::default() };
     let refused = refused_image(&pgm(1, 2, 255, &[3, 7]), &options);
     assert_eq!((refused.kind(), refused.file()), (ErrorKind::Options, Some(Path::new("map.yaml"))));
 }
@@ -203,8 +204,11 @@ fn options_that_contradict_one_another_are_refused() {
 #[test]
 fn the_first_file_that_is_named_stays() {
     let refused = refused_image(b"", &Options::default()).in_file(Path::new("other"));
-    assert_eq!(refused.to_string(), "image: the file is empty; allowed are PGM (P2, P5) and PNG images");
-    assert_eq!(refused.message(), "the file is empty; allowed are PGM (P2, P5) and PNG images");
+    assert_eq!(
+        refused.to_string(),
+        "image: the file is empty; allowed are PGM, PNG, BMP, PPM, PBM, JPEG, TIFF, GIF, WebP and TGA images"
+    );
+    assert!(refused.message().starts_with("the file is empty; allowed are PGM"));
     let named = Error::from(io::Error::from(io::ErrorKind::UnexpectedEof)).in_file(Path::new("two\nlines"));
     assert!(named.to_string().starts_with("two\\nlines: the file ends"), "{named}");
 }

@@ -3,6 +3,7 @@
 use crate::png_kinds::{Kind, SIZE};
 use crate::rules::{Rule, read_with, rules};
 use crate::support::{Random, percents, probabilities, read_twice};
+use approx::abs_diff_eq;
 use mean_information_files::{Cells, Mode, Options, Semantics, Warning};
 use mean_information_test_support::formats::{Folder, pgm, raw_png, yaml, zlib};
 use std::borrow::Cow;
@@ -24,7 +25,7 @@ fn every_kind_of_png_under_both_loaders_and_all_modes() {
         let pixels = in_grid_order(&pixels, SIZE);
         for rule in rules() {
             for mode in [Mode::Trinary, Mode::Scale, Mode::Raw] {
-                for semantics in [Semantics::Nav2, Semantics::Ros1] {
+                for semantics in [Semantics::Nav2, Semantics::Nav2Humble, Semantics::Ros1] {
                     let options = Options { semantics, mode: Some(mode), ..Options::default() };
                     let map = read_with(&folder, "image.png", rule, &options);
                     let expected: Vec<i8> = pixels
@@ -33,6 +34,10 @@ fn every_kind_of_png_under_both_loaders_and_all_modes() {
                             Semantics::Nav2 => {
                                 let (colour, white) = kind.meant(pixel);
                                 rule.nav2(mode, colour, white)
+                            }
+                            Semantics::Nav2Humble => {
+                                let (colour, white) = kind.meant(pixel);
+                                rule.nav2_humble(mode, colour, kind.has_alpha(), white)
                             }
                             Semantics::Ros1 => {
                                 let (surface, alpha_mask) = kind.on_sdl_surface(pixel);
@@ -45,7 +50,7 @@ fn every_kind_of_png_under_both_loaders_and_all_modes() {
                     assert_eq!(wrong, None, "{kind:?} {mode:?} {semantics:?} {}", rule.free);
                 }
             }
-            let options = Options { mode: Some(Mode::Probability), unknown: Some(1), ..Options::default() };
+            let options = Options { mode: Some(Mode::Probability), unknown: Some(1.0), ..Options::default() };
             let map = read_with(&folder, "image.png", rule, &options);
             for (pixel, &p) in pixels.iter().zip(probabilities(&map)) {
                 let ([r, g, b, a], white) = kind.meant(pixel);
@@ -57,7 +62,7 @@ fn every_kind_of_png_under_both_loaders_and_all_modes() {
                 } else {
                     1.0 - shade
                 };
-                assert!((p - expected).abs() < 1e-15, "{kind:?} {pixel:?} {p} {expected}");
+                assert!(abs_diff_eq!(p, expected, epsilon = 1e-15), "{kind:?} {pixel:?} {p} {expected}");
                 assert_eq!(p == 0.5, expected == 0.5, "{kind:?} {pixel:?}");
             }
         }
@@ -105,14 +110,17 @@ fn pgm_of_every_depth_plain_and_raw() {
         folder.write("plain.pgm", plain);
         let ordered = in_grid_order(&samples, 11);
         for image in ["raw.pgm", "plain.pgm"] {
-            let options =
-                Options { mode: Some(Mode::Probability), unknown: Some(max / 2), ..Options::default() };
+            let options = Options {
+                mode: Some(Mode::Probability),
+                unknown: Some(f64::from(max / 2)),
+                ..Options::default()
+            };
             let map = read_with(&folder, image, rules()[0], &options);
             for (&grey, &p) in ordered.iter().zip(probabilities(&map)) {
                 let expected = if grey == max / 2 { 0.5 } else { f64::from(max - grey) / f64::from(max) };
                 assert_eq!(p, expected, "{image} of {max}, {grey}");
             }
-            for semantics in [Semantics::Nav2, Semantics::Ros1] {
+            for semantics in [Semantics::Nav2, Semantics::Nav2Humble, Semantics::Ros1] {
                 let options = Options { semantics, mode: Some(Mode::Scale), ..Options::default() };
                 let map = read_with(&folder, image, rules()[1], &options);
                 let expected: Vec<i8> = ordered
@@ -121,17 +129,21 @@ fn pgm_of_every_depth_plain_and_raw() {
                         let level = u32::from(grey) * 255 / u32::from(max);
                         match semantics {
                             Semantics::Nav2 => rules()[1].nav2(Mode::Scale, [level, level, level, 255], 255),
+                            Semantics::Nav2Humble => {
+                                let grey = u32::from(grey);
+                                rules()[1].nav2_humble(Mode::Scale, [grey, grey, grey, 0], false, max.into())
+                            }
                             Semantics::Ros1 => rules()[1].ros1(Mode::Scale, &[level as u8], false),
                         }
                     })
                     .collect();
                 assert_eq!(percents(&map), expected, "{image} of {max} {semantics:?}");
                 let doubted = match semantics {
-                    Semantics::Nav2 => ![255, 65535].contains(&max),
+                    Semantics::Nav2 | Semantics::Nav2Humble => ![255, 65535].contains(&max),
                     Semantics::Ros1 => max > 255,
                 };
                 let warning = match semantics {
-                    Semantics::Nav2 => Warning::PgmMaximum { white: max },
+                    Semantics::Nav2 | Semantics::Nav2Humble => Warning::PgmMaximum { white: max },
                     Semantics::Ros1 => Warning::PgmMaximumRefused { white: max },
                 };
                 assert_eq!(map.warnings.contains(&warning), doubted, "{max} {semantics:?}");

@@ -120,6 +120,11 @@ impl Kind {
         (colour, white)
     }
 
+    /// Tells whether its pixels have an alpha.
+    pub(crate) fn has_alpha(&self) -> bool {
+        self.transparency.is_some() || matches!(self.colour, ColorType::GrayscaleAlpha | ColorType::Rgba)
+    }
+
     /// The bytes of a pixel on SDL's surface, and whether it has an alpha mask.
     pub(crate) fn on_sdl_surface(&self, pixel: &[u16]) -> (Vec<u8>, bool) {
         let ([r, g, b, a], white) = self.meant(pixel);

@@ -38,6 +38,33 @@ impl Rule {
         }
     }
 
+    /// Before pull request 5071: colours, and in trinary mode the alpha of an image that has it, averaged as samples of 16
+    /// bits; strict comparison.
+    pub(crate) fn nav2_humble(&self, mode: Mode, [r, g, b, a]: [u32; 4], has_alpha: bool, white: u32) -> i8 {
+        let quantum = |sample: u32| (f64::from(sample) * 65535.0 / f64::from(white)).round();
+        let mut channels = vec![quantum(r), quantum(g), quantum(b)];
+        if mode == Mode::Trinary && has_alpha {
+            channels.push(quantum(a));
+        }
+        let shade = channels.iter().sum::<f64>() / channels.len() as f64 / 65535.0;
+        if mode == Mode::Raw {
+            let level = (shade * 255.0).round();
+            return if level <= 100.0 { level as i8 } else { -1 };
+        }
+        let x = if self.negate { shade } else { 1.0 - shade };
+        if mode == Mode::Scale && has_alpha && a < white {
+            -1
+        } else if self.occupied < x {
+            100
+        } else if x < self.free {
+            0
+        } else if mode == Mode::Scale {
+            ((x - self.free) / (self.occupied - self.free) * 100.0).round_ties_even() as i8
+        } else {
+            -1
+        }
+    }
+
     pub(crate) fn ros1(&self, mode: Mode, surface: &[u8], alpha_mask: bool) -> i8 {
         let averaged = if mode == Mode::Trinary || !alpha_mask { surface.len() } else { surface.len() - 1 };
         let sum: u32 = surface[..averaged].iter().copied().map(u32::from).sum();

@@ -1,5 +1,6 @@
 //! CARMEN logs: what each message says, and logs that must be refused.
 
+use approx::abs_diff_eq;
 use mean_information::scan::Pose;
 use mean_information_files::scans::carmen::{MAXIMUM_RANGE, Record, Records, write};
 use mean_information_files::scans::{
@@ -64,7 +65,7 @@ fn the_number_of_beams_says_their_angles() {
         let bearings = log.scans[0].bearings();
         for (beam, degrees) in [(0, first), (beams - 1, last)] {
             let bearing: f64 = bearings.at(beam);
-            assert!((bearing.to_degrees() - degrees).abs() < 1e-12, "{beams} {bearing}");
+            assert!(abs_diff_eq!(bearing.to_degrees(), degrees, epsilon = 1e-12), "{beams} {bearing}");
         }
     }
 }
@@ -98,6 +99,20 @@ fn parameters_hold_for_the_scans_after_them() {
 
 fn limits(log: &ScanLog) -> Vec<[f64; 2]> {
     log.scans.iter().map(RangeScan::limits).collect()
+}
+
+/// From 81.83 m on SICK's scanners send codes, whatever greatest range a log states.
+#[test]
+fn codes_of_the_scanner_are_no_ranges() {
+    for (stated, meant) in [(81.82, 81.82), (81.83, 81.83), (81.92, 81.83), (82.0, 81.83), (82.5, 82.5)] {
+        let log = read(&robot_laser(7.5).replace("0.5 20 0.01", &format!("0.5 {stated} 0.01"))).unwrap();
+        assert_eq!(limits(&log), [[0.0, meant]]);
+        let log = read(&format!("PARAM robot_front_laser_max {stated}\n{}", front_laser(180, 2.5))).unwrap();
+        assert_eq!(limits(&log), [[0.0, meant]]);
+    }
+    let options = ScanOptions { maximum_range: Some(81.92), ..ScanOptions::default() };
+    let log = ScanLog::read_carmen(robot_laser(7.5).as_bytes(), &options).unwrap();
+    assert_eq!(limits(&log), [[0.0, 81.92]]);
 }
 
 #[test]

@@ -1,18 +1,24 @@
 //! The committed seeds of the fuzz targets, replayed on their properties.
 
+use image::{DynamicImage, GrayImage, ImageFormat};
 use mean_information_test_support::formats::pbstream::{grid, integer, message, state, submap};
 use mean_information_test_support::formats::{GridMap, gzip, npy, pgm, raw_png, yaml, zlib};
 use mean_information_test_support::properties;
 use std::fs;
+use std::io::{Cursor, Write};
 use std::path::{Path, PathBuf};
+use zip::CompressionMethod;
+use zip::write::{SimpleFileOptions, ZipWriter};
 
 type Target = (&'static str, fn(&[u8]), fn() -> Vec<(&'static str, Vec<u8>)>);
 
-const TARGETS: [Target; 15] = [
+const TARGETS: [Target; 17] = [
     ("yaml", properties::yaml, yaml_seeds),
     ("pgm", properties::pgm, pgm_seeds),
     ("png", properties::png, png_seeds),
+    ("decoded", properties::decoded, decoded_seeds),
     ("npy", properties::npy, npy_seeds),
+    ("npz", properties::npz, npz_seeds),
     ("gridmap", properties::gridmap, gridmap_seeds),
     ("bag", properties::bag, bag_seeds),
     ("pbstream", properties::pbstream, pbstream_seeds),
@@ -60,6 +66,8 @@ fn yaml_seeds() -> Vec<(&'static str, Vec<u8>)> {
         ("everything", yaml("\"map.png\"", "negate: true # white\nmode: Scale\nmap_type: {a: [1, {b: c}]}\n? [x, y]\n: |\n  z\n")),
         ("flow", "{image: m, resolution: 5e-2, origin: [-3.5, 2, .5], negate: 0, occupied_thresh: 1, free_thresh: 0}".to_owned()),
         ("bomb", yaml("map.pgm", "negate: 0\na: &a [x, x]\nb: &b [*a, *a]\nc: [*b, *b]\n")),
+        ("tabs", yaml("map.pgm", "negate:\t0\t# tab\nmode: trinary\nnegate: 1\n")),
+        ("crossing", yaml("~/map.pgm", "negate: 0\n").replace("0.196", "65")),
         ("documents", format!("%YAML 1.2\n---\n{}...\n---\n- 7\n", yaml("map.pgm", "negate: 0\n"))),
     ]
     .map(|(name, text)| (name, text.into_bytes()))
@@ -112,6 +120,54 @@ fn png_seeds() -> Vec<(&'static str, Vec<u8>)> {
     ]
 }
 
+fn decoded_seeds() -> Vec<(&'static str, Vec<u8>)> {
+    let encoded = |image: &DynamicImage, format| {
+        let mut bytes = Cursor::new(Vec::new());
+        image.write_to(&mut bytes, format).unwrap();
+        bytes.into_inner()
+    };
+    let grey = GrayImage::from_raw(3, 2, vec![0, 205, 254, 255, 100, 127]).unwrap();
+    let grey = DynamicImage::from(grey);
+    let colour = DynamicImage::from(grey.to_rgb8());
+    let clear = DynamicImage::from(grey.to_rgba8());
+    vec![
+        ("bmp_grey", encoded(&grey, ImageFormat::Bmp)),
+        ("bmp_rgb", encoded(&colour, ImageFormat::Bmp)),
+        ("gif", encoded(&clear, ImageFormat::Gif)),
+        ("jpeg", encoded(&grey, ImageFormat::Jpeg)),
+        ("pam", encoded(&colour, ImageFormat::Pnm)),
+        ("ppm_raw", b"P6 2 1 255\nabcdef".to_vec()),
+        ("ppm_plain", b"P3 # c\n2 1 100\n100 100 100 0 0 0\n".to_vec()),
+        ("pbm", b"P1 3 2\n0 1 0 1 1 0\n".to_vec()),
+        ("pbm_raw", b"P4 3 2\n\x40\xc0".to_vec()),
+        ("tga", encoded(&grey, ImageFormat::Tga)),
+        ("tiff_grey", encoded(&grey, ImageFormat::Tiff)),
+        (
+            "tiff_16_bits",
+            encoded(&DynamicImage::from(grey.to_luma_alpha16()).to_rgb16().into(), ImageFormat::Tiff),
+        ),
+        ("webp", encoded(&clear, ImageFormat::WebP)),
+    ]
+}
+
+fn npz_seeds() -> Vec<(&'static str, Vec<u8>)> {
+    let doubles: Vec<u8> = [0.25, 0.5, 1.0, 0.0].into_iter().flat_map(f64::to_le_bytes).collect();
+    let archive = |names: &[&str], method| {
+        let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
+        for name in names {
+            archive.start_file(*name, SimpleFileOptions::default().compression_method(method)).unwrap();
+            archive.write_all(&npy("'<f8'", false, "(2, 2)", &doubles)).unwrap();
+        }
+        archive.finish().unwrap().into_inner()
+    };
+    vec![
+        ("stored", archive(&["a.npy"], CompressionMethod::Stored)),
+        ("deflated", archive(&["a.npy"], CompressionMethod::Deflated)),
+        ("two", archive(&["a.npy", "b.npy"], CompressionMethod::Deflated)),
+        ("none", archive(&[], CompressionMethod::Stored)),
+    ]
+}
+
 fn npy_seeds() -> Vec<(&'static str, Vec<u8>)> {
     let doubles: Vec<u8> = [0.25, 0.5, 1.0, 0.0].into_iter().flat_map(f64::to_le_bytes).collect();
     let floats: Vec<u8> = [0.25_f32, 0.5, f32::NAN, 1.5].into_iter().flat_map(f32::to_be_bytes).collect();
@@ -121,6 +177,8 @@ fn npy_seeds() -> Vec<(&'static str, Vec<u8>)> {
         ("bytes", npy("'|i1'", false, "(2L, 3L)", &[0, 100, 255, 50, 7, 128])),
         ("records", npy("[('p', '<f8')]", false, "(2, 2)", &doubles)),
         ("three_dimensions", npy("'<f8'", false, "(2, 1, 2)", &doubles)),
+        ("wide_integers", npy("'>i2'", true, "(1, 3)", &[0, 7, 1, 44, 255, 255])),
+        ("truths", npy("'|b1'", false, "(1, 3)", &[0, 1, 2])),
         ("claims_more", npy("'<f8'", false, "(18446744073709551615, 2)", &doubles)),
     ]
 }
@@ -187,6 +245,7 @@ fn trajectory_seeds() -> Vec<(&'static str, Vec<u8>)> {
         ("unsorted", "1.5 2 3 0 0 0 0 1\n1.25 2 3 0 0 0 0 1\n"),
         ("far", "-1.7e308 1.7e308 -1.7e308 0 0 0 0 1\n1.7e308 -1.7e308 5e-324 0 0 0 1 -0\n"),
         ("cut", "1.5 2 3 0 0 0 0 1\n2.5 2 3 0 0"),
+        ("subnormal", "1.5 5e-324 3 0 0 0 0 1\n2.5 5e-324 3 0 0 0 0 1\n"),
     ]
     .map(|(name, text)| (name, text.as_bytes().to_vec()))
     .to_vec()

@@ -1,6 +1,6 @@
 //! Files from memory, and what the sources of the package do not say.
 
-use crate::support::percents;
+use crate::support::{Nobody, percents};
 use mean_information_files::{Contents, Counted, Memory, Options, read_map_contents_from, read_map_from};
 use mean_information_test_support::formats::{Folder, pgm, yaml};
 use std::fs;
@@ -16,7 +16,8 @@ fn a_map_in_memory_is_the_map_on_the_disk() {
         files.add("room.pgm", image.clone());
         let map = read_map_from(&files, Path::new("room.yaml"), &Options::default()).unwrap();
         assert_eq!(percents(&map), [100, 100, 100, 100, 0, -1]);
-        let map = read_map_contents_from(&files, Path::new("room.yaml"), &Options::default()).unwrap();
+        let map =
+            read_map_contents_from(&files, Path::new("room.yaml"), &Options::default(), &mut Nobody).unwrap();
         let Contents::Counted(Counted::Percent(counts)) = map.cells else { panic!("{map:?}") };
         assert_eq!((counts.width, counts.height), (3, 2));
         let of = |percent| counts.values.iter().filter(|&&(p, _)| p == percent).map(|&(_, n)| n).sum::<u64>();

@@ -3,7 +3,8 @@
 use mean_information::map::{Encoding, Grid};
 use mean_information::{Real, Tally};
 use mean_information_files::{
-    Cells, Contents, Counted, Counts, Error, Map, Options, read_map, read_map_contents, with_grid,
+    Cells, CellsVisitor, Contents, Counted, Counts, Error, Map, Options, Readable, read_map,
+    read_map_contents, with_grid,
 };
 use mean_information_test_support::formats::Folder;
 use std::path::Path;
@@ -23,13 +24,20 @@ pub(crate) fn refusal_of(path: &Path, options: &Options) -> String {
 /// Reads the cells of a map; then only what is measured. Both must say the same.
 pub(crate) fn read_twice(path: &Path, options: &Options) -> Result<Map, Error> {
     let kept = read_map(path, options);
-    match (&kept, read_map_contents(path, options)) {
+    let mut visited = Visited::default();
+    match (&kept, read_map_contents(path, options, &mut visited)) {
         (Ok(kept), Ok(counted)) => {
             let name = path.display();
             match &counted.cells {
                 Contents::Cells(cells) => assert_eq!(measure_cells(cells), measure(kept), "{name}"),
                 Contents::Counted(Counted::Percent(counts)) => assert_counts(counts, kept),
+                Contents::Counted(Counted::Mrpt(counts)) => assert_counts(counts, kept),
                 Contents::Counted(Counted::Probability(counts)) => assert_counts(counts, kept),
+                Contents::Visited { width, height } => {
+                    let of = |m: Measured| (m.width, m.height, m.free, m.occupied, m.unknown);
+                    let [free, occupied, unknown] = visited.0;
+                    assert_eq!((*width, *height, free, occupied, unknown), of(measure(kept)), "{name}");
+                }
             }
             assert_eq!(kept.warnings, counted.warnings);
             assert_eq!((kept.resolution, &kept.files), (counted.resolution, &counted.files));
@@ -40,9 +48,29 @@ pub(crate) fn read_twice(path: &Path, options: &Options) -> Result<Map, Error> {
     kept
 }
 
+/// The free, occupied and unknown cells of those that were visited.
+#[derive(Default)]
+struct Visited([u64; 3]);
+
+impl CellsVisitor for Visited {
+    fn visit<E: Readable>(&mut self, cells: &[E::Stored]) {
+        let tally = E::tally(cells);
+        for (all, more) in self.0.iter_mut().zip([tally.free(), tally.occupied(), tally.unknown()]) {
+            *all += more;
+        }
+    }
+}
+
+/// A visitor that looks at no cell.
+pub(crate) struct Nobody;
+
+impl CellsVisitor for Nobody {
+    fn visit<E: Readable>(&mut self, _: &[E::Stored]) {}
+}
+
 /// Asserts that the tally of counts is that of the cells, and that a value is counted if and only if a cell has it.
-fn assert_counts<E: Encoding<Float = f64>>(counts: &Counts<E>, kept: &Map) {
-    let mut tally = Tally::new();
+fn assert_counts<E: Encoding>(counts: &Counts<E>, kept: &Map) {
+    let mut tally = Tally::<E::Float>::new();
     for &(stored, count) in &counts.values {
         assert!(count > 0);
         tally.add_many(E::cell(stored).unwrap(), count);

@@ -1,5 +1,6 @@
 //! Trajectories: TUM text, the pose at a time, and the real ones of a public log.
 
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use mean_information::scan::Pose;
 use mean_information_files::scans::ScanOptions;
 use mean_information_files::{
@@ -34,7 +35,7 @@ fn a_quaternion_becomes_its_yaw() {
             let (z, w) = (length * libm::sin(yaw / 2.0), length * libm::cos(yaw / 2.0));
             let (trajectory, warnings) = read(&format!("0.5 1 2 3 0 0 {z} {w}\n")).unwrap();
             let theta = trajectory.poses()[0].theta();
-            assert!((theta - yaw).abs() < 1e-15, "{theta} {yaw}");
+            assert_abs_diff_eq!(theta, yaw, epsilon = 1e-15);
             assert_eq!(warnings, []);
         }
     }
@@ -43,9 +44,9 @@ fn a_quaternion_becomes_its_yaw() {
     let (t, u) = (libm::sin(PI / 180.0), libm::cos(PI / 180.0));
     let text = format!("0.5 1 2 3 {} {} {} {}\n0.75 1 2 3 0 0 0 1\n", -s * t, c * t, s * u, c * u);
     let (trajectory, warnings) = read(&text).unwrap();
-    assert!((trajectory.poses()[0].theta() - 0.75).abs() < 1e-15);
+    assert_abs_diff_eq!(trajectory.poses()[0].theta(), 0.75, epsilon = 1e-15);
     let [Warning::TiltDropped { count: 1, greatest_degrees }] = warnings[..] else { panic!("{warnings:?}") };
-    assert!((greatest_degrees - 2.0).abs() < 1e-12);
+    assert_abs_diff_eq!(greatest_degrees, 2.0, epsilon = 1e-12);
     assert!(warnings[0].to_string().contains("up to 2.0"), "{}", warnings[0]);
 }
 
@@ -105,11 +106,11 @@ fn poses_are_interpolated_within_the_gap_and_never_beyond() {
     let quarter = at(10.125, 0.5).unwrap();
     assert_eq!(quarter.position(), [1.25, -1.0]);
     // From 3 over π to -3, which is 2π - 6 away.
-    assert!((quarter.theta() - (3.0 + 0.25 * (2.0 * PI - 6.0))).abs() < 4e-15, "{quarter:?}");
+    assert_abs_diff_eq!(quarter.theta(), 3.0 + 0.25 * (2.0 * PI - 6.0), epsilon = 4e-15);
     assert_eq!((at(10.125, 0.499), at(11.5, 1.999)), (None, None));
     // From -3 to 7, whole turns taken off: 10 - 4π.
     let middle = at(11.5, 2.0).unwrap().theta();
-    assert!((middle - (-3.0 + 0.5 * (10.0 - 4.0 * PI))).abs() < 4e-15, "{middle}");
+    assert_abs_diff_eq!(middle, -3.0 + 0.5 * (10.0 - 4.0 * PI), epsilon = 4e-15);
     assert_eq!((at(9.999, f64::INFINITY), at(12.501, f64::INFINITY)), (None, None));
     assert_eq!((at(f64::NAN, 2.0), at(11.0, f64::NAN)), (None, None));
 
@@ -136,7 +137,7 @@ fn a_mount_turns_with_the_robot() {
     let robot = Trajectory::new(vec![0.5], vec![pose(1.0, 2.0, FRAC_PI_2)]).unwrap();
     let laser = robot.mounted(&pose(0.25, -0.5, 0.125)).unwrap().poses()[0];
     let [x, y] = laser.position();
-    assert!((x - 1.5).abs() < 1e-15 && (y - 2.25).abs() < 1e-15, "{laser:?}");
+    assert!(abs_diff_eq!(x, 1.5, epsilon = 1e-15) && abs_diff_eq!(y, 2.25, epsilon = 1e-15), "{laser:?}");
     assert_eq!(laser.theta(), FRAC_PI_2 + 0.125);
     let far = Trajectory::new(vec![0.5, 0.75], vec![pose(1.0, 2.0, 0.0), pose(f64::MAX, 0.0, 0.0)]).unwrap();
     let refused = far.mounted(&pose(f64::MAX, 0.0, 0.0)).unwrap_err();
@@ -162,7 +163,7 @@ fn what_is_written_is_read() {
     assert_eq!((read.times(), warnings), (trajectory.times(), vec![]));
     for (own, read) in trajectory.poses().iter().zip(read.poses()) {
         assert_eq!(own.position(), read.position());
-        assert!((own.theta() - read.theta()).abs() <= libm::ldexp(1.0, -49), "{own:?} {read:?}");
+        assert_abs_diff_eq!(own.theta(), read.theta(), epsilon = libm::ldexp(1.0, -49));
     }
 }
 

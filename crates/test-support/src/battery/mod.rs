@@ -1,4 +1,4 @@
-//! The battery: 330 integrals with their values to 32 digits: 247 of the public test families (`generate.py`), and 83
+//! The battery: 341 integrals with their values to 32 digits: 247 of the public test families (`generate.py`), and 94
 //! that users reported as wrong, with their kin (`reported.py`).
 
 use mean_information::cell::{entropy, information};
@@ -98,8 +98,18 @@ impl Case {
             }
             "runge-scaled" => Box::new(move |x| one / (one + square(x / c[0]))),
             "gaussian" => Box::new(move |x| c[2] * Float::exp(-T::HALF * square((x - c[1]) / c[0]))),
+            "peak-laplace" => Box::new(move |x| c[2] * Float::exp(-Float::abs(x - c[1]) / c[0])),
+            "peak-lognormal" => {
+                Box::new(move |x| c[2] * Float::exp(-T::HALF * square(Float::ln(x / c[1]) / c[0])))
+            }
+            "cosine-squared" => Box::new(move |x| square(Float::cos(c[0] * x))),
+            "cubic" => Box::new(move |x| ((c[0] * x + c[1]) * x + c[2]) * x + c[3]),
             "kink" => Box::new(move |x| Float::exp(Float::abs(x - c[0]))),
             "jump" => Box::new(move |x| if x < c[0] { c[1] } else { c[2] }),
+            "exponential-jump" => Box::new(move |x| Float::exp(if x < c[0] { x } else { c[1] * x })),
+            "bump-jump" => Box::new(move |w| {
+                Float::exp(-one / (one - if Float::abs(w) < c[0] { square(w) } else { zero }))
+            }),
             "ramp" => Box::new(move |x| Float::min(x, c[0])),
             "cut-root" => Box::new(move |x| if x < c[0] { x / Float::sqrt(c[0] - x + c[1]) } else { zero }),
             "identity" => Box::new(|x| x),

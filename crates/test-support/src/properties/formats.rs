@@ -5,52 +5,67 @@ use mean_information::map::{Encoding, Grid};
 use mean_information_files::npy::MapsVisitor;
 use mean_information_files::ros::{Description, read_image};
 use mean_information_files::{
-    ArrayEncoding, Error, Map, Mode, Options, Readable, Semantics, gridmap as mrpt, npy as arrays, with_grid,
+    ArrayEncoding, CellsVisitor, Contents, Counted, Error, Map, Memory, Mode, Options, Readable, Semantics,
+    gridmap as mrpt, npy as arrays, read_map_from, read_weights_from, with_grid,
 };
 use std::io::Cursor;
+use std::path::Path;
 
 /// Small, so that a claim is soon above it.
 const MAX_CELLS: u64 = 1 << 16;
 
 /// Reads a description of a map: it is refused, or what is read can be meant.
 pub fn yaml(bytes: &[u8]) {
-    for semantics in [Semantics::Nav2, Semantics::Ros1] {
+    for semantics in [Semantics::Nav2, Semantics::Nav2Humble, Semantics::Ros1] {
         let Some(read) = kept(Description::read(bytes, semantics)) else {
             continue;
         };
         assert!(!read.image.is_empty());
         assert!(read.resolution > 0.0 && read.resolution.is_finite());
         assert!(read.origin.iter().all(|x| x.is_finite()));
-        assert!(read.free_thresh < read.occupied_thresh);
+        let thresholds = [read.free_thresh, read.occupied_thresh];
+        assert!(thresholds.into_iter().flatten().all(f64::is_finite));
     }
 }
 
 /// Reads an image under every loader and mode.
 pub fn pgm(bytes: &[u8]) {
-    image(bytes);
+    image("image", bytes);
 }
 
 /// Reads an image under every loader and mode.
 pub fn png(bytes: &[u8]) {
-    image(bytes);
+    image("image", bytes);
 }
 
-fn image(bytes: &[u8]) {
+/// Reads an image that is decoded whole under every loader and mode; what has no mark is TGA.
+pub fn decoded(bytes: &[u8]) {
+    image("image.tga", bytes);
+}
+
+fn image(name: &str, bytes: &[u8]) {
     let sizes = [Mode::Trinary, Mode::Scale, Mode::Raw, Mode::Probability].map(|mode| {
-        [(Semantics::Nav2, false), (Semantics::Ros1, true)].map(|(semantics, negate)| {
-            let description = Description {
-                image: "image".to_owned(),
-                resolution: 0.05,
-                origin: [-3.5, 2.25, 0.125],
-                negate,
-                occupied_thresh: 0.65,
-                free_thresh: 0.25,
-                mode,
-            };
-            let options =
-                Options { semantics, max_cells: Some(MAX_CELLS), unknown: Some(1), ..Options::default() };
-            kept(read_image(Cursor::new(bytes), &description, &options)).map(|map| checked(&map))
-        })
+        [(Semantics::Nav2, false), (Semantics::Nav2Humble, false), (Semantics::Ros1, true)].map(
+            |(semantics, negate)| {
+                let description = Description {
+                    image: name.to_owned(),
+                    resolution: 0.05,
+                    origin: [-3.5, 2.25, 0.125],
+                    negate,
+                    occupied_thresh: Some(0.65),
+                    free_thresh: Some(0.25),
+                    mode,
+                    warnings: Vec::new(),
+                };
+                let options = Options {
+                    semantics,
+                    max_cells: Some(MAX_CELLS),
+                    unknown: Some(1.0),
+                    ..Options::default()
+                };
+                kept(read_image(Cursor::new(bytes), &description, &options)).map(|map| checked(&map))
+            },
+        )
     });
     let first = sizes[0][0];
     assert!(sizes.iter().flatten().all(|&size| size == first), "{sizes:?}");
@@ -66,9 +81,43 @@ pub fn npy(bytes: &[u8]) {
         Some(ArrayEncoding::Mrpt),
     ] {
         let options = Options { encoding, max_cells: Some(MAX_CELLS), ..Options::default() };
-        if let Some(map) = kept(arrays::read(bytes, bytes.len() as u64, &options)) {
+        let map = kept(arrays::read(bytes, bytes.len() as u64, &options));
+        let mut visited = Visited(0);
+        let contents =
+            kept(arrays::read_contents(bytes, bytes.len() as u64, &options, MAX_CELLS, &mut visited));
+        assert_eq!(map.is_some(), contents.is_some());
+        if let (Some(map), Some(contents)) = (map, contents) {
+            let [width, height] = checked(&map);
+            let cells: u64 = match contents.cells {
+                Contents::Counted(Counted::Percent(counts)) => counts.values.iter().map(|&(_, n)| n).sum(),
+                Contents::Counted(Counted::Mrpt(counts)) => counts.values.iter().map(|&(_, n)| n).sum(),
+                _ => visited.0,
+            };
+            assert_eq!((cells, contents.warnings), ((width * height) as u64, map.warnings));
+        }
+    }
+}
+
+/// Reads the one array of an archive as a map, and as weights.
+pub fn npz(bytes: &[u8]) {
+    let mut files = Memory::new();
+    files.add("map.npz", bytes);
+    let options = Options { max_cells: Some(MAX_CELLS), ..Options::default() };
+    for name in ["map.npz", "map.npz:a"] {
+        if let Some(map) = kept(read_map_from(&files, Path::new(name), &options)) {
             checked(&map);
         }
+        kept(read_weights_from(&files, Path::new(name), &options));
+    }
+}
+
+/// Counts the cells that it visits.
+struct Visited(u64);
+
+impl CellsVisitor for Visited {
+    fn visit<E: Readable>(&mut self, cells: &[E::Stored]) {
+        assert!(cells.iter().all(|&cell| E::is_valid(cell)));
+        self.0 += cells.len() as u64;
     }
 }
 

@@ -19,7 +19,7 @@ mod tally;
 pub use bags::{bag, pbstream};
 pub use builders::{expected, scan};
 #[cfg(feature = "formats")]
-pub use formats::{gridmap, npy, pgm, png, stack, yaml};
+pub use formats::{decoded, gridmap, npy, npz, pgm, png, stack, yaml};
 pub use grid::grid;
 pub use integral::integrate;
 pub use room::room;

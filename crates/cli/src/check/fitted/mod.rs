@@ -74,6 +74,9 @@ fn cause<A>(
         }
     }
     let tests = explained.len() + others;
-    (following >= LEAST && following > others)
-        .then(|| Candidate { tests, ..fact(name, note, PLAIN, explained) })
+    (following >= LEAST && following > others).then(|| Candidate {
+        tests,
+        has_values: true,
+        ..fact(name, note, PLAIN, explained)
+    })
 }

@@ -1,6 +1,6 @@
 //! The messages that have scans and poses, field by field.
 
-use super::parameters::{Parameters, check_view};
+use super::parameters::{Parameters, check_view, without_codes};
 use crate::error::Error;
 use crate::scans::options::{ScanOptions, TimeField};
 use crate::scans::range_scan::{Bearings, RangeScan};
@@ -52,7 +52,7 @@ pub(super) fn robot_laser(
         check_view(ranges.len(), view, increment).map_err(|error| line.blame(error))?;
     }
     let bearings = Bearings::Even { start, increment };
-    scan(line, time, bearings, ranges, options.maximum_range.unwrap_or(greatest), poses)
+    scan(line, time, bearings, ranges, options.maximum_range.unwrap_or(without_codes(greatest)), poses)
 }
 
 /// Reads what follows the word `ODOM`: its time and the pose.

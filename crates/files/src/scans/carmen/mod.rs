@@ -8,7 +8,8 @@
 //! | `PARAM name value` | see below; without the three fields of time at will |
 //! | `RLASER`, `ROBOTLASER2`, `RAWLASER…`, `SYNC`, `TRUEPOS`, `#` and an empty line | nothing: passed over |
 //!
-//! Lines of any other first word are passed over and counted in [`Warning::LinesNotUnderstood`].
+//! Lines of any other first word are passed over and counted in
+//! [`LinesNotUnderstood`](crate::Warning::LinesNotUnderstood).
 //!
 //! The beams of an `FLASER` are at equal angles about the heading. `PARAM laser_front_laser_resolution` has their distance
 //! in degrees, and `laser_front_laser_fov`, if it is there, must fit. Without it the number of beams decides, as in CARMEN:
@@ -18,6 +19,9 @@
 //! | 180, 181 | -90° | 1° |
 //! | 360, 361 | -90° | 0.5° |
 //! | 400, 401 | -50° | 0.25° |
+//!
+//! A greatest range from 81.83 to 82 m, in a message or a parameter, means 81.83 m: SICK's scanners send 81.83 m and more as
+//! codes for errors and for no return.
 //!
 //! Further parameters: `robot_front_laser_max` is the greatest range (metres), `robot_frontlaser_offset`,
 //! `robot_frontlaser_side_offset` and `robot_frontlaser_angular_offset` are the mount of the laser (metres, radians). A log

@@ -4,10 +4,20 @@ use crate::error::Error;
 use crate::scans::range_scan::Bearings;
 use crate::text::Fields;
 use mean_information::scan::Pose;
+use std::ops::RangeInclusive;
 
 /// The greatest range of an `FLASER` in metres where the log states none: SICK's scanners return 50 m and more, up to
 /// 81.91, where nothing came back.
 pub const MAXIMUM_RANGE: f64 = 50.0;
+
+/// The ranges, in metres, that SICK's scanners send for errors and for no return: the last numbers of 13 bits, in
+/// centimetres. Logs state their end as the greatest range.
+const SICK_CODES: RangeInclusive<f64> = 81.83..=82.0;
+
+/// Returns the greatest range that a log means by the one that it states: codes are no ranges.
+pub(super) fn without_codes(stated: f64) -> f64 {
+    if SICK_CODES.contains(&stated) { *SICK_CODES.start() } else { stated }
+}
 
 /// The parameters seen so far.
 #[derive(Clone, Copy, Debug, Default)]
@@ -66,7 +76,7 @@ impl Parameters {
 
     /// Returns the greatest range, in metres.
     pub(super) fn maximum_range(&self) -> f64 {
-        self.maximum_range.unwrap_or(MAXIMUM_RANGE)
+        self.maximum_range.map_or(MAXIMUM_RANGE, without_codes)
     }
 
     /// Returns the mount of the laser, if a parameter has a part of it; the others are 0.

@@ -1,0 +1,26 @@
+//! Trajectories compared by the maps that they make of the same scans, without ground truth
+//! (`docs/evidence.md`).
+//!
+//! [`SensorModel`] says what a beam means, [`Setup`] how maps are made; [`Common`] finds the scans for which every
+//! [`Candidate`] has a pose; [`measure_all`] measures the map of each, by several threads; [`Comparison`] has the rows, and
+//! [`Pictures`] draws them.
+
+mod common;
+mod comparison;
+mod labels;
+mod measure;
+mod page;
+mod pictures;
+mod sensor;
+mod setup;
+mod warnings;
+mod weakest;
+
+pub use common::{Candidate, Common, far_pose};
+pub use comparison::{Comparison, Row, Used};
+pub use labels::labels;
+pub use measure::{BLOCKS, Measured, Wanted, measure, measure_all};
+pub use pictures::Pictures;
+pub use sensor::{BeamModel, SensorModel};
+pub use setup::{Refused, Setup};
+pub use weakest::Weakest;

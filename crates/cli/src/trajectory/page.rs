@@ -1,0 +1,115 @@
+//! The page of a comparison: the answer, the table, the curves, the maps, and what the numbers mean.
+
+use super::comparison::Row;
+use super::pictures::Pictures;
+use crate::failure::Failure;
+use crate::one_line::one_line;
+use crate::output::{self, escaped, short};
+use crate::plots::{Sheet, panels};
+
+const MEANING: &str = include_str!("meaning.html");
+
+impl Pictures<'_> {
+    /// Returns the page, one file that needs no other.
+    ///
+    /// # Errors
+    /// None is known.
+    pub fn page(&self) -> Result<String, Failure> {
+        let comparison = self.comparison;
+        let used = &comparison.used;
+        let text = |text: &str| escaped(&one_line(text));
+        let line = |line: &String| format!("{}.<br/>\n", capital(&text(line)));
+        let note = |(name, note): (&str, &str)| {
+            format!("<li><strong>{}</strong>: {}.</li>\n", text(name), text(note))
+        };
+        let worst = |(name, worst): (&str, String)| {
+            format!("<p><strong>{}</strong> is {}.</p>\n", text(name), text(&worst))
+        };
+        let answer = |answer: &String| format!("<p class=\"answer\">{}.</p>\n", text(answer));
+        let log = text(&used.log);
+        let made_of: String = comparison.made_of().iter().map(line).collect();
+        let notes: String = comparison.notes().map(note).collect();
+        let notes = if notes.is_empty() { notes } else { format!("<ul class=\"notes\">\n{notes}</ul>\n") };
+        let worst: String = comparison.worst().into_iter().map(worst).collect();
+        let answer: String = comparison.verdict.iter().map(answer).collect();
+        let heads: String = Row::HEADS.iter().enumerate().map(|(k, head)| th(k, head)).collect();
+        let rows: String = comparison.rows.iter().map(|row| tr(&row.cells(used))).collect();
+        let curves = Sheet::new(vec![vec![self.series_svg()?]], self.described());
+        let (maps, top) = self.panels()?;
+        let maps = Sheet::new(
+            maps.chunks(2).flat_map(|pair| panels(pair, 2)).collect(),
+            "Each trajectory's map beside its contradictions.".to_owned(),
+        );
+        let (curves, maps, top) = (curves.element(), maps.element(), short(top));
+        let body = format!(
+            r#"{answer}<p>Trajectories compared by the maps that they make of the scans of <code>{log}</code>, without ground truth:
+where a trajectory is wrong, scans contradict one another.</p>
+<section id="rows">
+<h2>The maps in numbers</h2>
+<table>
+<caption>{made_of}</caption>
+<thead><tr>{heads}</tr></thead>
+<tbody>
+{rows}</tbody>
+</table>
+{notes}</section>
+<section id="series">
+<h2>When</h2>
+<figure>
+{curves}<figcaption>The mean information of the map as it is made, scan by scan. It rises where places are seen again and
+agree, and falls where new ground is seen once, or where a trajectory went wrong: look where a curve leaves the
+first.</figcaption>
+</figure>
+{worst}</section>
+<section id="maps">
+<h2>Where</h2>
+<figure>
+{maps}<figcaption>First the map: white is free, black is occupied, blue-grey is unknown. Beside or below it the evidence that cancels,
+from <span class="ramp conflicts"></span> little to {top} nats per cell and more, with the path of the laser in blue, from its dot.
+Walls that are seen twice are where a trajectory is wrong; doors and people contradict under any.</figcaption>
+</figure>
+</section>
+{MEANING}"#
+        );
+        Ok(output::page("Which trajectory is right?", &body))
+    }
+
+    /// Describes the curves to those who do not see them.
+    fn described(&self) -> String {
+        let ends = self.comparison.labels().into_iter().zip(self.measured).map(|(label, measured)| {
+            format!("{} ends at {:.4}", one_line(&label), measured.tally.mean_information())
+        });
+        format!("Mean information against time: {}.", ends.collect::<Vec<_>>().join(", "))
+    }
+}
+
+fn class(column: usize) -> &'static str {
+    if column == 0 { "" } else { " class=\"number\"" }
+}
+
+fn th(column: usize, head: &str) -> String {
+    format!("<th scope=\"col\"{}>{}</th>", class(column), escaped(&head.replace('\n', " ")))
+}
+
+/// Begins a sentence.
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+}
+
+/// Returns a row; on a narrow screen each cell has its head before it.
+fn tr(cells: &[String; 7]) -> String {
+    let cell = |(column, text): (usize, &String)| {
+        let text = escaped(&if column == 0 {
+            text.replace('\n', "")
+        } else {
+            text.replace('\n', ", ").replace(' ', "\u{a0}")
+        });
+        if column == 0 {
+            return format!("<td>{text}</td>");
+        }
+        let head = escaped(&Row::HEADS[column].replace('\n', " "));
+        format!("<td data-label=\"{head}\"{}>{text}</td>", class(column))
+    };
+    format!("<tr>{}</tr>\n", cells.iter().enumerate().map(cell).collect::<String>())
+}

@@ -1,0 +1,145 @@
+//! Images that are decoded whole, against the same pixels as PGM or PNG.
+
+use crate::support::{measure, percents, read_twice, refusal_of};
+use image::codecs::jpeg::JpegEncoder;
+use image::{DynamicImage, GrayImage, ImageBuffer, ImageFormat, Rgb, RgbImage, RgbaImage};
+use mean_information_files::{Map, Mode, Options, Semantics, Warning};
+use mean_information_test_support::formats::{Folder, pgm, yaml};
+use std::io::Cursor;
+
+const GREYS: [u8; 12] = [0, 0, 254, 254, 205, 205, 100, 90, 205, 254, 0, 255];
+
+fn encoded(image: &DynamicImage, format: ImageFormat) -> Vec<u8> {
+    let mut bytes = Cursor::new(Vec::new());
+    image.write_to(&mut bytes, format).unwrap();
+    bytes.into_inner()
+}
+
+fn read_image(name: &str, bytes: &[u8], options: &Options) -> Map {
+    let folder = Folder::new();
+    folder.write(name, bytes);
+    read_twice(&folder.write("map.yaml", yaml(name, "negate: 0\n")), options).unwrap()
+}
+
+#[test]
+fn every_format_is_read_as_its_greys() {
+    let grey = GrayImage::from_raw(4, 3, GREYS.to_vec()).unwrap();
+    let colour = RgbImage::from_fn(4, 3, |x, y| Rgb([grey[(x, y)].0[0]; 3]));
+    let (grey, colour) = (DynamicImage::from(grey), DynamicImage::from(colour));
+    let reference = pgm(4, 3, 255, &GREYS.map(u16::from));
+    for semantics in [Semantics::Nav2, Semantics::Nav2Humble, Semantics::Ros1] {
+        for mode in [Mode::Trinary, Mode::Scale, Mode::Raw] {
+            let options = Options { semantics, mode: Some(mode), ..Options::default() };
+            let expected = read_image("map.pgm", &reference, &options);
+            for (name, image, format) in [
+                ("map.bmp", &grey, ImageFormat::Bmp),
+                ("map.bmp", &colour, ImageFormat::Bmp),
+                ("map.ppm", &colour, ImageFormat::Pnm),
+                ("map.tiff", &grey, ImageFormat::Tiff),
+                ("map.gif", &colour, ImageFormat::Gif),
+                ("map.webp", &colour, ImageFormat::WebP),
+                ("map.tga", &grey, ImageFormat::Tga),
+                ("map.tga", &colour, ImageFormat::Tga),
+            ] {
+                // SDL_image gives ROS 1 every TIFF with alpha, which trinary mode averages.
+                if semantics == Semantics::Ros1 && format == ImageFormat::Tiff {
+                    continue;
+                }
+                let map = read_image(name, &encoded(image, format), &options);
+                assert_eq!(percents(&map), percents(&expected), "{name} {mode:?} {semantics:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_jpeg_warns_that_decoders_differ() {
+    let grey = GrayImage::from_fn(16, 8, |x, _| [if x < 8 { 0 } else { 254 }].into());
+    let mut bytes = Vec::new();
+    JpegEncoder::new_with_quality(&mut bytes, 100).encode_image(&grey).unwrap();
+    let map = read_image("map.jpg", &bytes, &Options::default());
+    assert_eq!((measure(&map).free, measure(&map).occupied), (64, 64));
+    assert_eq!(map.warnings, [Warning::JpegLevels]);
+}
+
+#[test]
+fn ros_1_averages_the_alpha_of_every_tiff() {
+    let grey = DynamicImage::from(GrayImage::from_raw(4, 3, GREYS.to_vec()).unwrap());
+    let tiff = encoded(&grey, ImageFormat::Tiff);
+    let ros1 = Options { semantics: Semantics::Ros1, ..Options::default() };
+    // (3 * 205 + 255) / 4 is 217.5: free, as is every grey from there.
+    assert_eq!(measure(&read_image("map.tif", &tiff, &ros1)).free, 7);
+    assert_eq!(measure(&read_image("map.tif", &tiff, &Options::default())).free, 4);
+}
+
+#[test]
+fn sixteen_bits_and_alpha_are_kept() {
+    let deep = ImageBuffer::<image::Luma<u16>, _>::from_raw(2, 1, vec![52685_u16, 1]).unwrap();
+    let tiff = encoded(&DynamicImage::from(deep), ImageFormat::Tiff);
+    let probability = Options { mode: Some(Mode::Probability), unknown: Some(52685.0), ..Options::default() };
+    assert_eq!(measure(&read_image("map.tif", &tiff, &probability)).unknown, 1);
+    assert!(read_image("map.tif", &tiff, &Options::default()).warnings.contains(&Warning::SixteenBits));
+    let clear = RgbaImage::from_raw(2, 1, vec![0, 0, 0, 255, 0, 0, 0, 7]).unwrap();
+    let webp = encoded(&DynamicImage::from(clear), ImageFormat::WebP);
+    let map = read_image("map.webp", &webp, &Options::default());
+    assert_eq!(map.warnings, [Warning::TransparentReadAsUnknown { count: 1 }]);
+}
+
+/// A BMP of 8 bits with this palette, and indices in rows of 4 from the bottom.
+fn bmp(palette: &[[u8; 3]], indices: &[u8]) -> Vec<u8> {
+    let start = 54 + 4 * 256_u32;
+    let mut bytes = b"BM".to_vec();
+    bytes.extend((start + indices.len() as u32).to_le_bytes());
+    bytes.extend([0; 4]);
+    bytes.extend(start.to_le_bytes());
+    bytes.extend(40_u32.to_le_bytes());
+    bytes.extend(4_u32.to_le_bytes());
+    bytes.extend((indices.len() as u32 / 4).to_le_bytes());
+    bytes.extend([1, 0, 8, 0]);
+    bytes.extend([0; 24]);
+    bytes.extend((0..256).flat_map(|k| {
+        let [r, g, b] = palette.get(k).copied().unwrap_or([k as u8; 3]);
+        [b, g, r, 0]
+    }));
+    bytes.extend(indices);
+    bytes
+}
+
+#[test]
+fn a_bmp_with_a_palette_is_indices_to_ros_1() {
+    let plain = bmp(&[], &[0, 205, 254, 255]);
+    let coloured = bmp(&[[254; 3], [0; 3]], &[0, 1, 0, 1]);
+    for semantics in [Semantics::Nav2, Semantics::Ros1] {
+        let options = Options { semantics, ..Options::default() };
+        assert_eq!(percents(&read_image("map.bmp", &plain, &options)), [100, -1, 0, 0]);
+    }
+    assert_eq!(percents(&read_image("map.bmp", &coloured, &Options::default())), [0, 100, 0, 100]);
+    let ros1 =
+        read_image("map.bmp", &coloured, &Options { semantics: Semantics::Ros1, ..Options::default() });
+    assert_eq!((percents(&ros1), &ros1.warnings[..]), (&[100; 4][..], &[Warning::PaletteIndices][..]));
+}
+
+#[test]
+fn bitmaps_and_other_largest_samples_are_scaled() {
+    let map = read_image("map.pbm", b"P1 3 1\n0 1 0\n", &Options::default());
+    assert_eq!(percents(&map), [0, 100, 0]);
+    let map = read_image("map.ppm", b"P3 2 1 100\n100 100 100 0 0 0\n", &Options::default());
+    assert_eq!(percents(&map), [0, 100]);
+}
+
+#[test]
+fn what_claims_more_than_it_holds_takes_no_memory() {
+    let folder = Folder::new();
+    let map = folder.write("map.yaml", yaml("map.bmp", "negate: 0\n"));
+    let mut huge = bmp(&[], &[0; 4]);
+    huge[18..22].copy_from_slice(&16000_u32.to_le_bytes());
+    huge[22..26].copy_from_slice(&16000_u32.to_le_bytes());
+    folder.write("map.bmp", &huge);
+    let refused = refusal_of(&map, &Options::default());
+    assert!(refused.contains("which cannot hold the 16000 x 16000 pixels it claims"), "{refused}");
+    let refused = refusal_of(&map, &Options { max_cells: Some(1000), ..Options::default() });
+    assert!(refused.contains("more than the limit of 1000"), "{refused}");
+    let whole = bmp(&[], &[0; 4]);
+    folder.write("map.bmp", &whole[..whole.len() - 2]);
+    assert!(refusal_of(&map, &Options::default()).contains("cut short"));
+}

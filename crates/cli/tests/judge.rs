@@ -122,8 +122,8 @@ fn signs_and_digits_are_read_as_the_check_reads_them() {
         (r#"r'"0x0p\+?0"', '"-0x0p+0"'"#, "expected.*", true),
         (r#"r'"0x0p\+?0"', '"-0x0p+0"'"#, "cell.information", false),
         // Digits that no float has, though the nearest float is right.
-        (r#"r'(0x1\.[0-9a-f]+)p', r'\g<1>00000000000000001p'"#, "cell.information", false),
-        (r#"r'(0x1\.[0-9a-f]+)p', r'\g<1>0000000000000000p'"#, "cell.information", true),
+        (r"r'(0x1\.[0-9a-f]+)p', r'\g<1>00000000000000001p'", "cell.information", false),
+        (r"r'(0x1\.[0-9a-f]+)p', r'\g<1>0000000000000000p'", "cell.information", true),
         // A decimal is no hexadecimal float.
         (r#"r'"0x1p-1"', '"0.5"'"#, "cell.information", false),
     ] {

@@ -20,7 +20,7 @@ def floor(x):
 
 print("//! Gauss-Legendre rules. Written by `proofs/gauss_legendre.py`; do not edit.")
 print()
-print("/// Of each rule the positive nodes with their weights, scale 127, floored: what is dropped is below a unit.")
+print("/// The positive nodes of each rule and their weights, scale 127, floored: what is dropped is below a unit.")
 print(f"pub(super) const RULES: [&[(u128, u128)]; {len(ORDERS)}] = [")
 for n in ORDERS:
     print("    &[")

@@ -278,6 +278,8 @@ def failures(edits, test, rows, regions):
 def main():
     """Makes the changes whose names contain the argument, or all."""
     chosen = [mutation for mutation in MUTATIONS if all(part in mutation[0] for part in sys.argv[1:])]
+    if not chosen or {"-h", "--help"} & set(sys.argv[1:]):
+        sys.exit("usage: proofs/mutate.py [WORD ...]: makes the changes whose names contain every word, or all changes")
     test = build_test()
     with tempfile.TemporaryDirectory() as folder:
         # What every copy reads, made once.

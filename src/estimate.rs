@@ -67,9 +67,9 @@ pub struct Estimate<T> {
 /// Two floats that are proved to have the true value between them, ends included.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Enclosure<T> {
-    /// Not above the true value.
+    /// The lower end, not above the true value.
     pub lower: T,
-    /// Not below the true value.
+    /// The upper end, not below the true value.
     pub upper: T,
     /// The way in which the computation ended.
     pub status: Status<T>,

@@ -27,7 +27,7 @@ chapters! {
     grids;
     scan;
     fusion;
-    evidence;
+    evidence shows "figures/evidence.svg";
     expected;
     limit;
     closed_form;

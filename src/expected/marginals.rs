@@ -5,7 +5,7 @@ use crate::cell::State;
 use crate::map::Encoding;
 use crate::map::repeated::Repeated;
 use crate::real::Real;
-use crate::rounded::Natural;
+use crate::rounded::NaturalNumber;
 use crate::rounded::beyond_float::{self, Both};
 use crate::tally::Tally;
 use alloc::vec::Vec;
@@ -90,7 +90,7 @@ impl<'a, E: Encoding> Marginals<'a, E> {
 
 /// Adds `count` cells with this stored value to a tally.
 fn add_agreed<E: Encoding>(tally: &mut Tally<E::Float>, stored: E::Stored, count: u64) {
-    let marginal = Marginal::<E::Float>::of(&Mean::of_one(nearest::<E>(stored), &Natural::from(1)));
+    let marginal = Marginal::<E::Float>::of(&Mean::of_one(nearest::<E>(stored), &NaturalNumber::from(1)));
     tally.add_fixed(marginal.state, marginal.both, count);
 }
 

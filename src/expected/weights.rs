@@ -3,7 +3,7 @@
 
 use crate::error::Error;
 use crate::real::Real;
-use crate::rounded::{Leading, Natural, leading, odd_parts, round_quotient};
+use crate::rounded::{Leading, NaturalNumber, leading, odd_parts, round_quotient};
 use alloc::vec::Vec;
 use core::cmp::Ordering;
 
@@ -37,7 +37,7 @@ pub(super) struct Weights {
     parts: Vec<(u64, usize)>,
     /// The largest of these shifts.
     spread: usize,
-    total: Natural,
+    total: NaturalNumber,
 }
 
 impl Weights {
@@ -54,7 +54,7 @@ impl Weights {
         let least = least.ok_or_else(|| Error::out_of_range("sum of the weights", 0.0, "above 0"))?;
         let part = |&w: &f64| odd_parts(w).map_or((0, 0), |(m, e)| (m, (e - least) as usize));
         let parts: Vec<_> = weights.iter().map(part).collect();
-        let mut total = Natural::default();
+        let mut total = NaturalNumber::default();
         for &(m, shift) in &parts {
             total.add_shifted(m.into(), shift);
         }
@@ -97,7 +97,7 @@ impl Weights {
 
     /// Computes the magnitude of `sum w_i x_i`, and whether it is negative, in two halves of 128 bits: for fewer than
     /// [`MANY`] terms of 106 bits, with shifts below 128.
-    fn short_sum<T: Real>(&self, values: &[T], least: i32) -> (Natural, bool) {
+    fn short_sum<T: Real>(&self, values: &[T], least: i32) -> (NaturalNumber, bool) {
         let (mut low, mut high) = (0_u128, 0_i128);
         for (n, shift, negative) in self.terms(values, least) {
             let (bottom, top) = (n << shift, ((n >> 1) >> (127 - shift)) as i128);
@@ -111,12 +111,12 @@ impl Weights {
             high = -high - i128::from(low != 0);
             low = low.wrapping_neg();
         }
-        (Natural::from([low, high as u128]), is_negative)
+        (NaturalNumber::from([low, high as u128]), is_negative)
     }
 
     /// Computes the magnitude of `sum w_i x_i`, and whether it is negative, for any terms.
-    fn long_sum<T: Real>(&self, values: &[T], least: i32) -> (Natural, bool) {
-        let (mut positive, mut negative) = (Natural::default(), Natural::default());
+    fn long_sum<T: Real>(&self, values: &[T], least: i32) -> (NaturalNumber, bool) {
+        let (mut positive, mut negative) = (NaturalNumber::default(), NaturalNumber::default());
         for (n, shift, is_negative) in self.terms(values, least) {
             let sum = if is_negative { &mut negative } else { &mut positive };
             sum.add_shifted(n, shift);
@@ -130,17 +130,17 @@ const MANY: usize = 1 << 20;
 
 /// An exact mean, `±sum 2^exponent / total`; for numbers in `[0, 1]` the exponent is at most 0.
 pub(super) struct Mean<'a> {
-    sum: Natural,
+    sum: NaturalNumber,
     is_negative: bool,
     exponent: i32,
-    total: &'a Natural,
+    total: &'a NaturalNumber,
 }
 
 impl<'a> Mean<'a> {
     /// Creates the mean of equal values `p` in `[0, 1]`; `one` is the integer 1.
-    pub(super) fn of_one<T: Real>(p: T, one: &'a Natural) -> Self {
+    pub(super) fn of_one<T: Real>(p: T, one: &'a NaturalNumber) -> Self {
         let (m, exponent) = if p.is_zero() { (0, 0) } else { p.parts() };
-        Self { sum: Natural::from(m), is_negative: false, exponent, total: one }
+        Self { sum: NaturalNumber::from(m), is_negative: false, exponent, total: one }
     }
 }
 
@@ -212,8 +212,8 @@ mod tests {
         /// `d 2^e` of 1, as the first bit says and as it is.
         #[test]
         fn above_a_sixteenth(d in 1_u64.., total in 1_u64.., shift in 0_i32..12) {
-            let one = Natural::from(total);
-            let mean = Mean { sum: Natural::from(d), is_negative: false, exponent: -shift, total: &one };
+            let one = NaturalNumber::from(total);
+            let mean = Mean { sum: NaturalNumber::from(d), is_negative: false, exponent: -shift, total: &one };
             let is_above = u128::from(d) << 4 > u128::from(total) << shift;
             prop_assert!(!mean.is_above_a_sixteenth() || is_above);
             // And above an eighth it says so.

@@ -14,29 +14,30 @@ use super::ends::Interval;
 use crate::scalar::Scalar;
 
 /// The intervals of real and of imaginary parts.
-type Real = Interval<f64>;
+type RealInterval = Interval<f64>;
 
 /// The complex numbers with real part in one interval and imaginary part in another.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Complex {
-    re: Real,
-    im: Real,
+    re: RealInterval,
+    im: RealInterval,
     /// The rectangle of which this is the exponential, if it is one: its logarithm, exactly.
     ///
     /// `ln(e^z) = z` on the real axis, so `z` is its analytic continuation, also where the principal branch has jumped.
-    logarithm: Option<(Real, Real)>,
+    logarithm: Option<(RealInterval, RealInterval)>,
 }
 
-const ZERO: Real = Interval::point(0.0);
-const ONE: Real = Interval::point(1.0);
-const PI: Real = Interval::between(core::f64::consts::PI, core::f64::consts::PI.next_up());
+const ZERO: RealInterval = Interval::point(0.0);
+const ONE: RealInterval = Interval::point(1.0);
+const PI: RealInterval = Interval::between(core::f64::consts::PI, core::f64::consts::PI.next_up());
 
 impl Complex {
     /// The value where a function is not known to be analytic.
-    pub(crate) const NOT_ANALYTIC: Self = Self { re: Real::EMPTY, im: Real::EMPTY, logarithm: None };
+    pub(crate) const NOT_ANALYTIC: Self =
+        Self { re: RealInterval::EMPTY, im: RealInterval::EMPTY, logarithm: None };
 
     /// Creates the rectangle of two intervals.
-    pub(crate) const fn new(re: Real, im: Real) -> Self {
+    pub(crate) const fn new(re: RealInterval, im: RealInterval) -> Self {
         Self { re, im, logarithm: None }
     }
 
@@ -44,7 +45,7 @@ impl Complex {
     pub(crate) fn bound(self) -> f64 {
         if self.re.is_bounded() && self.im.is_bounded() {
             // |z| <= |re| + |im|, the sum rounded upwards.
-            (Real::point(self.re.magnitude()) + Real::point(self.im.magnitude())).upper()
+            (RealInterval::point(self.re.magnitude()) + RealInterval::point(self.im.magnitude())).upper()
         } else {
             f64::INFINITY
         }
@@ -61,13 +62,13 @@ impl Complex {
     }
 
     /// Encloses `|z|^2`.
-    fn square_magnitude(self) -> Real {
+    fn square_magnitude(self) -> RealInterval {
         self.re.square() + self.im.square()
     }
 
     /// Encloses the argument, for a rectangle that avoids the cut.
-    fn argument(self) -> Real {
-        let half = Real::constant(0.5) * PI;
+    fn argument(self) -> RealInterval {
+        let half = RealInterval::constant(0.5) * PI;
         // A quotient whose divisor has no 0: by the half plane in which the rectangle lies.
         if self.re.lower() > 0.0 {
             arctangent(self.im / self.re)
@@ -87,18 +88,18 @@ impl Complex {
 /// Encloses `1 - e^z = -z (1 + z/2 + r)`, with all digits for small `z`: `|r| <= |z|^2 / 5` for `|z| <= 1/2`.
 fn one_minus_exponential(z: Complex) -> Complex {
     // 1/6 + |z|/24 + ... <= 1/5 for |z| <= 1/2: integration.md, "Rectangles".
-    let rest = (z.square_magnitude() * Real::constant(0.2)).upper();
-    let rest = Real::between(-rest, rest);
+    let rest = (z.square_magnitude() * RealInterval::constant(0.2)).upper();
+    let rest = RealInterval::between(-rest, rest);
     -z * (Complex::constant(1.0) + Complex::constant(0.5) * z + Complex::new(rest, rest))
 }
 
 /// Encloses a rising odd function from lower and upper bounds of its values at numbers that are not negative.
-fn odd(x: Real, bounds: impl Fn(f64) -> (f64, f64)) -> Real {
+fn odd(x: RealInterval, bounds: impl Fn(f64) -> (f64, f64)) -> RealInterval {
     let end = |x: f64| {
         let (lower, upper) = bounds(x.abs());
         if x < 0.0 { (-upper, -lower) } else { (lower, upper) }
     };
-    Real::between(end(x.lower()).0, end(x.upper()).1)
+    RealInterval::between(end(x.lower()).0, end(x.upper()).1)
 }
 
 /// Widens `v >= 0` by `2^-36` of its value, more than the truncation and the roundings of the functions below. All tiny
@@ -116,7 +117,7 @@ fn about(v: f64) -> (f64, f64) {
 }
 
 /// Encloses `sin x` for `|x| <= 1.57 < π/2`: its series up to `x^15`; the next term is below `2^-37` of the sum.
-fn sine(x: Real) -> Real {
+fn sine(x: RealInterval) -> RealInterval {
     odd(x, |x| {
         let square = x * x;
         // Terms alternate and fall: what is left out is below x^17 / 17!, 2^-37 of the sum, within the margin.
@@ -125,7 +126,7 @@ fn sine(x: Real) -> Real {
 }
 
 /// Encloses `cos x` for `|x| <= 1.57`: `1 - cos x` by its series up to `x^16`; the next term is below `2^-40` of the sum.
-fn cosine(x: Real) -> Real {
+fn cosine(x: RealInterval) -> RealInterval {
     let versine = |x: f64| {
         let square = x * x;
         // Likewise: x^18 / 18! is below 2^-40 of the sum.
@@ -136,17 +137,20 @@ fn cosine(x: Real) -> Real {
     };
     // 1 - cos is even and rises with |x|.
     let (far, near) = (x.magnitude(), x.lower().max(-x.upper()).max(0.0));
-    ONE - Real::between(versine(near).0, versine(far).1)
+    ONE - RealInterval::between(versine(near).0, versine(far).1)
 }
 
 /// Encloses `arctan x` between the fourth and the fifth convergent of Lambert's continued fraction, which alternate about it.
-fn arctangent(x: Real) -> Real {
+fn arctangent(x: RealInterval) -> RealInterval {
     odd(x, |x| {
         if x > 1.0 {
             let (lower, upper) = convergents(1.0 / x);
             // The quotient's rounding is in the margins.
-            let half = Real::constant(0.5) * PI;
-            return ((half - Real::point(upper)).lower(), (half - Real::point(lower)).upper());
+            let half = RealInterval::constant(0.5) * PI;
+            return (
+                (half - RealInterval::point(upper)).lower(),
+                (half - RealInterval::point(lower)).upper(),
+            );
         }
         convergents(x)
     })
@@ -221,11 +225,11 @@ impl Div for Complex {
 
 impl Scalar for Complex {
     fn constant(x: f64) -> Self {
-        if x.is_finite() { Self::new(Real::point(x), ZERO) } else { Self::NOT_ANALYTIC }
+        if x.is_finite() { Self::new(RealInterval::point(x), ZERO) } else { Self::NOT_ANALYTIC }
     }
 
     fn ln_2() -> Self {
-        Self::new(Real::ln_2(), ZERO)
+        Self::new(RealInterval::ln_2(), ZERO)
     }
 
     /// Encloses `re^2 - im^2 + 2 i re im`: neither square is negative.
@@ -243,7 +247,7 @@ impl Scalar for Complex {
         } else if self.im.magnitude() <= 1.57 {
             (cosine(self.im), sine(self.im))
         } else {
-            (Real::between(-1.0, 1.0), Real::between(-1.0, 1.0))
+            (RealInterval::between(-1.0, 1.0), RealInterval::between(-1.0, 1.0))
         };
         let logarithm = Some((self.re, self.im));
         Self { re: magnitude * cosine, im: magnitude * sine, logarithm }
@@ -261,7 +265,7 @@ impl Scalar for Complex {
             return Self::new(self.re.ln(), ZERO);
         }
         // ln |c|^2 / 2 + i arg c.
-        Self::new(Real::constant(0.5) * self.square_magnitude().ln(), self.argument())
+        Self::new(RealInterval::constant(0.5) * self.square_magnitude().ln(), self.argument())
     }
 
     fn sqrt(self) -> Self {

@@ -6,7 +6,7 @@
 //! [`docs/fusion.md`](crate::book::fusion).
 
 use super::fixed::{mul_high, reciprocal, shift_right};
-use super::integers::natural_number::{Natural, round_quotient};
+use super::integers::natural_number::{NaturalNumber, round_quotient};
 use super::round::{FixedEnclosure, Rounded};
 use super::ziv::odd_parts;
 use crate::real::Real;
@@ -79,10 +79,10 @@ fn rest_of_small(m: u64, n: u32) -> Cut {
 
 /// Computes `A / (A + B)` in integers of any size and rounds it once, ties to even.
 fn exactly<T: Real>(factors: impl Iterator<Item = (u64, u32)>) -> T {
-    let (mut a, mut b) = (Natural::from(1), Natural::from(1));
+    let (mut a, mut b) = (NaturalNumber::from(1), NaturalNumber::from(1));
     for (m, n) in factors {
         a = a.times(&m.into());
-        b = b.times(&Natural::from(1).shifted(n as usize).difference(&m.into()).0);
+        b = b.times(&NaturalNumber::from(1).shifted(n as usize).difference(&m.into()).0);
     }
     let whole = b.plus(&a);
     round_quotient(&a, &whole, 0)

@@ -57,7 +57,7 @@ pub(crate) use fixed::{horner, mul_high, reciprocal, shift_right};
 pub(crate) use fusion::fused;
 pub(crate) use gaussian::gaussian;
 pub(crate) use integers::limbs;
-pub(crate) use integers::natural_number::{Leading, Natural, leading, round_quotient};
+pub(crate) use integers::natural_number::{Leading, NaturalNumber, leading, round_quotient};
 pub(crate) use log_odds::{
     LOG_ODDS_SCALE, fixed_log_odds, log_odds_from_occupancy, occupancy_from_fixed_log_odds, round_log_odds,
 };

@@ -35,7 +35,7 @@ pub(crate) fn ln(m: u128, e: i32) -> (FixedEnclosure, bool) {
     let correction = (u128::from(ratio) * (INV_LN2 >> 64)) >> 36;
     // Scale 112, which holds exponents up to 2^14.
     let log2_x = i128::from(e + 127) * (1 << 112) + ((log2(n, 60) + correction as i128) >> 8);
-    // Scale 111 = 112 + 127 - 128; The error is below 2^-77.4 (integration.md), and 2^-76 is stated.
+    // Scale 111 = 112 + 127 - 128; the error is below 2^-77.4 (integration.md), and 2^-76 is stated.
     let value = mul_high(log2_x.unsigned_abs(), LN2);
     (FixedEnclosure::around(value, LOG_ERROR >> 8, -111), log2_x < 0)
 }

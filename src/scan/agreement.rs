@@ -4,7 +4,7 @@ use super::layer::Layer;
 use super::scan_map::ScanMap;
 use crate::error::Error;
 use crate::real::Real;
-use crate::rounded::{Natural, round_log_odds, round_quotient};
+use crate::rounded::{NaturalNumber, round_log_odds, round_quotient};
 
 impl<T: Real> ScanMap<T> {
     /// Returns the agreement of the scans, `A = Σ |Σ l| / Σ Σ |l|`: the outer sums are over the cells, the inner ones over
@@ -44,7 +44,7 @@ impl<T: Real> ScanMap<T> {
                 *high += u128::from(carry);
             }
         }
-        let [held, told] = sums.map(Natural::from);
+        let [held, told] = sums.map(NaturalNumber::from);
         Some(if told.is_zero() { T::one() } else { round_quotient(&held, &told, 0) })
     }
 

@@ -4,7 +4,7 @@
 use crate::elementary::sqrt;
 use crate::error::Error;
 use crate::real::Real;
-use crate::rounded::{Natural, round_quotient};
+use crate::rounded::{NaturalNumber, round_quotient};
 use crate::tally::Tally;
 use core::ops::Range;
 
@@ -57,12 +57,13 @@ impl Difference {
         let sum: i128 = without.iter().map(difference).sum();
         // K (θ₋ₖ - θ̄), below 2^64 K: exact, and so are the squares and their sum.
         let squares = without.iter().map(|pair| {
-            let from_mean = Natural::from([(blocks as i128 * difference(pair) - sum).unsigned_abs(), 0]);
+            let from_mean =
+                NaturalNumber::from([(blocks as i128 * difference(pair) - sum).unsigned_abs(), 0]);
             from_mean.times(&from_mean)
         });
-        let squares = squares.fold(Natural::default(), |sum, square| sum.plus(&square));
+        let squares = squares.fold(NaturalNumber::default(), |sum, square| sum.plus(&square));
         // Rounded here, and in the root.
-        let [more, count] = [blocks - 1, blocks].map(|n| Natural::from(n as u64));
+        let [more, count] = [blocks - 1, blocks].map(|n| NaturalNumber::from(n as u64));
         let variance: f64 =
             round_quotient(&squares.times(&more), &count.times(&count).times(&count), -2 * SCALE);
         Ok(Self { value: second - first, standard_error: sqrt(variance), blocks })
@@ -85,8 +86,8 @@ impl Difference {
     }
 }
 
-/// Splits so many scans into `count` blocks of consecutive ones, their sizes differing by at most one; as many blocks as scans if
-/// there are fewer.
+/// Splits `scans` scans into `count` blocks of consecutive ones, their sizes differing by at most one; as many blocks as
+/// scans if there are fewer.
 ///
 /// ```
 /// use mean_information::scan::blocks;

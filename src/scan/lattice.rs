@@ -65,7 +65,7 @@ impl Lattice {
         (((metres / self.resolution) * UNITS * (1.0 - 4.0 * f64::EPSILON)) as u64).min(2 * END)
     }
 
-    /// Tells whether the centre of a cell is at most so many units from a point, at most `2^62`: exactly.
+    /// Tells whether the centre of a cell is at most `units` units from a point, at most `2^62`: exactly.
     #[inline]
     pub(super) fn is_within(from: Point, cell: [i64; 2], units: u64) -> bool {
         let [x, y] = offset_of_centre(from, cell).map(|offset| u128::from(offset.unsigned_abs()));

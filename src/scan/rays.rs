@@ -27,19 +27,19 @@ struct Segment<M: InverseSensorModel> {
     end: Point,
     model: M,
     is_return: bool,
-    /// What the model says of cells whose centre is at most `plateau` units of the lattice away.
+    /// The occupancy of cells whose centre is at most `plateau` units of the lattice from the sensor.
     nearest: M::Float,
     plateau: u64,
 }
 
-/// What one scan says of one cell: log-odds in units of `2^-80` nats, not 0.
+/// The reading of one cell by one scan: log-odds in units of `2^-80` nats, not 0.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reading {
     pub(super) cell: [i64; 2],
     pub(super) log_odds: i128,
 }
 
-/// What the beams so far say of a cell.
+/// The reading of a cell by the beams so far.
 #[derive(Clone, Copy)]
 struct Draft<T> {
     /// The distance of its centre from the sensor, once a beam asks for it: beams are many where cells are near. NaN

@@ -50,7 +50,7 @@ pub struct ScanMap<T> {
     max_cells: u64,
     has_agreement: bool,
     inserted: Inserted,
-    /// What the cells were told; `None` while no scan is held.
+    /// The sums of the readings of each cell; `None` while no scan is held.
     pub(super) sums: Option<Sums>,
     format: PhantomData<T>,
 }

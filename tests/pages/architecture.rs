@@ -157,7 +157,7 @@ fn home(name: &str) -> &str {
         "Real" => "real",
         "Tally" | "InformationSum" | "ExactSum" => "tally",
         "Failure" => "failure",
-        "Cells" => "cells",
+        "Cells" | "with_grid" => "cells",
         module => module,
     }
 }
@@ -171,5 +171,14 @@ fn a_file_holds_one_idea() {
             let long = LONG.iter().any(|name| file == Path::new(name));
             assert!(lines <= 400 || long, "{}: {lines} lines", file.display());
         }
+    }
+}
+
+/// A module is where its name says: no attribute reaches above the folder of its file.
+#[test]
+fn no_module_is_taken_from_a_folder_above() {
+    for file in ["src", "crates", "tests", "benches", "examples", "fuzz"].into_iter().flat_map(sources) {
+        let above = |line: &&str| line.trim_start().starts_with("#[path") && line.contains("..");
+        assert_eq!(read(&file).lines().find(above), None, "{}", file.display());
     }
 }

@@ -75,7 +75,8 @@ impl Package {
                 let before = &code[..at];
                 let is_name = before.ends_with(|c: char| c.is_alphanumeric() || "_:$".contains(c));
                 let line = &before[before.rfind('\n').map_or(0, |end| end + 1)..];
-                !is_name && !line.trim_start().starts_with("pub")
+                let is_reexport = line.trim_start().starts_with("pub") && line.contains(" use ");
+                !is_name && !is_reexport
             })
         };
         let written =
@@ -126,4 +127,20 @@ fn no_files_form_a_circle() {
             told.collect::<String>()
         );
     }
+}
+
+#[test]
+fn a_path_in_a_public_signature_is_a_dependency() {
+    let name = |name: &str| vec![name.to_owned()];
+    let code = [
+        ("approximate", "pub(crate) struct Hole;\n"),
+        ("ball", "pub(crate) fn hole(x: &super::approximate::Hole) {}\n"),
+        ("face", "pub(crate) use super::approximate::Hole;\n"),
+    ];
+    let package = Package {
+        files: code.iter().map(|&(module, _)| (name(module), PathBuf::from(module))).collect(),
+        code: code.iter().map(|&(module, text)| (name(module), text.to_owned())).collect(),
+    };
+    assert_eq!(package.dependencies(&name("ball")), BTreeSet::from([name("approximate")]));
+    assert_eq!(package.dependencies(&name("face")), BTreeSet::new());
 }

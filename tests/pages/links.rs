@@ -8,8 +8,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Paths that a reader makes, or that stand for many.
-const MADE: [&str; 5] =
-    ["report/index.html", "vectors/v2", "target/mutants", "v1/OPERATION.json", "../shared/data"];
+const MADE: [&str; 6] = [
+    "report/index.html",
+    "index.html",
+    "vectors/v2",
+    "target/mutants",
+    "v1/OPERATION.json",
+    "../shared/data",
+];
 
 /// Every page that is meant to be read.
 fn pages() -> Vec<PathBuf> {

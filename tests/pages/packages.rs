@@ -7,7 +7,16 @@ use std::process::Command;
 const PACKAGES: [(&str, &[&str], &[&str]); 3] = [
     (
         "mean-information",
-        &["src/", "docs/", "vectors/README.md", "vectors/v1/", "examples/", "CHANGELOG.md"],
+        &[
+            "src/",
+            "docs/",
+            "vectors/README.md",
+            "vectors/v1/",
+            "examples/measure.rs",
+            "examples/own_sensor.rs",
+            "examples/watch_emmi.rs",
+            "CHANGELOG.md",
+        ],
         &["src/lib.rs", "docs/rounding.md", "docs/figures/figure-1.svg", "vectors/v1/cell.entropy.json"],
     ),
     ("mean-information-files", &["src/"], &["src/lib.rs"]),

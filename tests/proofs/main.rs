@@ -112,15 +112,13 @@ fn quotations(script: &str) -> Vec<Quotation> {
 fn the_scripts_quote_every_statement() {
     let source = Source::read();
     let mut quoted: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    let mut faults = Vec::new();
     for (name, script) in integer_scripts() {
         for quotation in quotations(&script) {
             match quotation.function {
                 Some(function) => quoted.entry(function).or_default().push(quotation.text),
-                None => assert!(
-                    source.lines.contains(&quotation.text),
-                    "{name}: not in the source: {}",
-                    quotation.text
-                ),
+                None if source.lines.contains(&quotation.text) => {}
+                None => faults.push(format!("{name}: not in the source: {}", quotation.text)),
             }
         }
     }
@@ -128,27 +126,24 @@ fn the_scripts_quote_every_statement() {
         assert!(source.functions.contains_key(function) && !quoted.contains_key(function), "{function}");
     }
     for (function, statements) in &source.functions {
-        if !UNQUOTED.contains(&function.as_str()) {
-            assert_eq!(
-                quoted.get(function),
-                Some(statements),
-                "fn {function}: left the scripts, right the source"
-            );
+        let quoted = quoted.get(function);
+        if !UNQUOTED.contains(&function.as_str()) && quoted != Some(statements) {
+            faults.push(format!("fn {function}:\nthe scripts {quoted:#?}\nthe source {statements:#?}"));
         }
     }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
 #[test]
 fn the_definitions_translate_their_quotations() {
     let source = Source::read();
-    let mut checked = 0;
+    let (mut checked, mut faults) = (0, Vec::new());
     for (name, script) in integer_scripts() {
         for quotation in quotations(&script) {
             let text = &quotation.text;
-            assert!(
-                quotation.explained || !quotation.definitions.is_empty(),
-                "{name}: neither defined nor explained: {text}"
-            );
+            if !quotation.explained && quotation.definitions.is_empty() {
+                faults.push(format!("{name}: neither defined nor explained: {text}"));
+            }
             let whole = expressions(text);
             let parts: Vec<_> = whole.iter().flat_map(|expression| expression.parts()).collect();
             for (defined, value) in &quotation.definitions {
@@ -162,14 +157,15 @@ fn the_definitions_translate_their_quotations() {
                     None if text.starts_with(&format!("let {defined} = ")) => vec![whole[0].gappa()],
                     None => parts.iter().map(|part| part.gappa()).collect::<Vec<_>>(),
                 };
-                assert!(
-                    translated.contains(value),
-                    "{name}: {defined} = {value}\nis not in {text}\nwhich is {translated:#?}"
-                );
+                if !translated.contains(value) {
+                    let parts = format!("is not in {text}\nwhich is {translated:#?}");
+                    faults.push(format!("{name}: {defined} = {value}\n{parts}"));
+                }
                 checked += 1;
             }
         }
     }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
     assert!(checked >= 60, "only {checked} definitions are under a quotation");
 }
 
@@ -181,6 +177,7 @@ fn count(source: &Source, name: &str) -> usize {
 #[test]
 fn the_constants_are_those_of_the_source() {
     let source = Source::read();
+    let mut faults = Vec::new();
     for (name, script) in integer_scripts() {
         for (constant, value) in script.lines().filter_map(definition) {
             if constant.chars().any(char::is_lowercase) {
@@ -188,15 +185,20 @@ fn the_constants_are_those_of_the_source() {
             }
             let expected =
                 source.constants.get(&constant).unwrap_or_else(|| panic!("{name}: no constant {constant}"));
-            assert_eq!(Integer::read(&value, "b").as_ref(), Some(expected), "{name}: {constant}");
+            if Integer::read(&value, "b").as_ref() != Some(expected) {
+                faults.push(format!("{name}: {constant} = {value}, in the source {expected:?}"));
+            }
         }
     }
     for error in source.constants.keys().filter(|name| name.ends_with("_ERROR")) {
         let goal = format!("/ {error}| <= 1");
         let proves =
             |script: &String| script.split_once("\n->").is_some_and(|(_, goals)| goals.contains(&goal));
-        assert!(scripts().values().any(proves), "no script proves {error}");
+        if !scripts().values().any(proves) {
+            faults.push(format!("no script proves {error}"));
+        }
     }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
 /// A line `|...| <= 1b43 # LOG_ERROR` in a script assumes what the constant, the polynomial or the other script states.
@@ -204,7 +206,7 @@ fn the_constants_are_those_of_the_source() {
 fn the_assumptions_are_proved_elsewhere() {
     let source = Source::read();
     let scripts = integer_scripts();
-    let mut checked = 0;
+    let (mut checked, mut faults) = (0, Vec::new());
     for (name, script) in &scripts {
         for line in script.lines() {
             let Some((assumption, reason)) =
@@ -231,9 +233,12 @@ fn the_assumptions_are_proved_elsewhere() {
                 let stated = Integer::read(bound, "b").expect("an integer");
                 stated.m << stated.e == (m << e) + more.parse::<u128>().expect("an integer")
             };
-            assert!(holds, "{name}: {line}");
+            if !holds {
+                faults.push(format!("{name}: {line}"));
+            }
             checked += 1;
         }
     }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
     assert!(checked >= 18, "only {checked} assumptions name their origin");
 }

@@ -8,7 +8,7 @@
 
 use mean_information::Tally;
 use mean_information::map::encoding::{Encoding, MrptLogOdds, Probability};
-use mean_information_cli::plots::{Chart, Colour, Curve, Drawing, Marks, Panel, Picture, Scale};
+use mean_information_cli::plots::{Chart, ChartPanel, Colour, Curve, Drawing, Marks, Picture, Scale};
 use mean_information_test_support::timing;
 use std::hint::black_box;
 use std::num::NonZero;
@@ -89,14 +89,14 @@ fn panel(
     scale: Scale,
     times: &[Times],
     of: impl Fn(&[(f64, f64)], f64) -> f64,
-) -> Panel {
+) -> ChartPanel {
     let curve = |times: &Times| Curve {
         name: times.name.to_owned(),
         colour: times.colour,
         marks: Marks::Each,
         points: times.points.iter().map(|&(x, y)| (x, of(&times.points, y))).collect(),
     };
-    Panel { vertical, scale, curves: times.iter().map(curve).collect(), marks: Vec::new() }
+    ChartPanel { vertical, scale, curves: times.iter().map(curve).collect(), marks: Vec::new() }
 }
 
 fn save(name: &str, drawing: &impl Drawing) {

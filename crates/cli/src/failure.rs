@@ -15,7 +15,7 @@ pub enum Failure {
     File {
         /// The file.
         path: PathBuf,
-        /// The fault.
+        /// The fault in it.
         message: String,
     },
     /// Standard output cannot be written, for another reason than a reader who closed it.
@@ -28,7 +28,7 @@ pub enum Failure {
     Port {
         /// The command that starts it.
         command: String,
-        /// The fault.
+        /// The fault of its answers.
         message: String,
     },
     /// A picture cannot be drawn.
@@ -67,7 +67,7 @@ impl Failure {
 /// Tells whether a cell was refused whose value often means unknown, and for which `--unknown` can be given.
 fn may_be_unknown(error: &Error) -> bool {
     let of_floats = error.allowed().is_some_and(|allowed| !allowed.contains("percentage"));
-    matches!(error.place(), Some(Place::Cell { map: None, .. }))
+    matches!(error.place(), Some(Place::Cell { .. }))
         && of_floats
         && matches!(error.value(), Some("NaN" | "-1"))
 }
@@ -79,9 +79,11 @@ impl From<Error> for Failure {
             ErrorKind::TooLarge => {
                 format!("{}; raise it with --max-cells if the file is meant", error.message())
             }
-            ErrorKind::Options => "--unknown needs --mode probability; give both or neither".to_owned(),
             ErrorKind::Choice => {
                 format!("{}; `meaninfo bag --topic` names one, --force admits costmaps", error.message())
+            }
+            ErrorKind::Options if error.place() == Some(&Place::Option("unknown")) => {
+                "--unknown needs --mode probability; give both or neither".to_owned()
             }
             ErrorKind::OutOfRange if may_be_unknown(&error) => {
                 format!("{}, as does --unknown {}", error.message(), error.value().unwrap_or_default())

@@ -103,7 +103,7 @@ fn parse_exponent(text: &str) -> Result<i64, ParseError> {
 /// The reason why a text is not a number of the format asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ParseError {
-    /// Not a hexadecimal float, `inf` or `nan`.
+    /// A text that is neither a hexadecimal float nor `inf` nor `nan`.
     Syntax,
     /// A number that the format does not have: too many bits, too large or too small.
     NotRepresentable,

@@ -15,7 +15,7 @@ const STYLE: &str = "{spinner} [{elapsed}] {pos} of {len}: {wide_msg}";
 pub(crate) struct Progress(ProgressBar);
 
 impl Progress {
-    /// Begins work of so many steps.
+    /// Begins work of `steps` steps.
     pub(crate) fn new(steps: usize) -> Self {
         let bar = ProgressBar::with_draw_target(Some(steps as u64), ProgressDrawTarget::hidden());
         if let Ok(style) = ProgressStyle::with_template(STYLE) {
@@ -34,12 +34,12 @@ impl Progress {
         Self(bar)
     }
 
-    /// The next step begins: what it is about.
+    /// Begins the next step, named `what`.
     pub(crate) fn begin(&self, what: &str) {
         self.0.set_message(one_line(what));
     }
 
-    /// The step is done.
+    /// Ends the step.
     pub(crate) fn done(&self) {
         self.0.inc(1);
     }

@@ -280,9 +280,9 @@ pub mod errors {
     pub const OPERATION: &str = "unknown-operation";
     /// Neither `f32` nor `f64`.
     pub const FORMAT: &str = "unknown-format";
-    /// Not the arguments of the operation: one is missing, too many, of another shape, or no float of the format.
+    /// Arguments that the operation does not take: one is missing, too many, of another shape, or no float of the format.
     pub const ARGUMENTS: &str = "arguments";
-    /// Not a request.
+    /// A line that is no request.
     pub const MALFORMED: &str = "malformed";
     /// Another version of the protocol is asked for.
     pub const PROTOCOL: &str = "protocol";

@@ -8,7 +8,7 @@ use mean_information_files::{ArrayEncoding, Mode, Options, Semantics, Warning};
 /// The options for reading map files.
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Reading")]
-pub struct Reading {
+pub struct ReadingArguments {
     /// Whose rules turn the grey levels of a ROS map into percentages: nav2 of Kilted and Rolling, nav2 of Humble, Iron and
     /// Jazzy (before pull request 5071 of April 2025: thresholds compared strictly, colours and alpha averaged), or ROS 1.
     #[arg(long, value_enum, default_value_t)]
@@ -34,7 +34,7 @@ pub struct Reading {
     max_cells: Option<u64>,
 }
 
-impl Reading {
+impl ReadingArguments {
     /// Returns the options of the readers.
     pub fn options(&self) -> Options {
         Options {

@@ -12,7 +12,7 @@ pub struct Sweep {
     name: String,
     /// The side of a cell of the map itself, in metres.
     pub resolution: Option<f64>,
-    /// From the map itself to the coarsest.
+    /// The steps, from the map itself to the coarsest.
     pub steps: Vec<Step>,
     warnings: Vec<String>,
 }

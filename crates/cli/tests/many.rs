@@ -74,6 +74,29 @@ fn the_options_that_mend_arrays_are_named() {
     assert!(stdout(&["map", wide, "--encoding", "percent"]).contains("observed"));
 }
 
+/// The particles of a filter may mark unknown cells so, too.
+#[test]
+fn a_value_of_particles_may_mean_unknown() {
+    let folder = Folder::new();
+    let doubles = |numbers: &[f64]| numbers.iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<u8>>();
+    let write = |name: &str, shape: &str, numbers: &[f64]| {
+        folder.write(name, npy("'<f8'", false, shape, &doubles(numbers))).to_str().unwrap().to_owned()
+    };
+    let weights = write("w.npy", "(2,)", &[0.5, 0.25]);
+    let [marked, plain] = [("m.npy", f64::NAN), ("p.npy", 0.5)]
+        .map(|(name, unknown)| write(name, "(2, 1, 2)", &[0.25, unknown, 0.75, unknown]));
+    let run = |particles: &str, more: &[&str]| {
+        let arguments = ["emmi", "--particles", particles, "--weights", &weights, "--format", "json"];
+        stdout(&[&arguments[..], more].concat())
+    };
+    assert_eq!(run(&marked, &["--unknown", "nan"]), run(&plain, &[]));
+    let line = refusal(&["emmi", "--particles", &marked, "--weights", &weights]);
+    assert!(
+        line.contains("m.npy: particle 0: cell at row 0, column 1 is NaN") && line.contains("--unknown NaN"),
+        "{line}"
+    );
+}
+
 /// An average in floats leaves unknown cells beside 1/2, and its mean information means nothing.
 #[test]
 fn averages_in_floats_are_not_meaningful() {
@@ -84,7 +107,7 @@ fn averages_in_floats_are_not_meaningful() {
             let json: Value = serde_json::from_str(&stdout(&[command, &map, "--format", "json"])).unwrap();
             let json = if command == "map" { &json[0] } else { &json };
             assert_eq!(
-                json["warnings"].to_string().contains("within some ulp of 1/2"),
+                json["warnings"].to_string().contains("an ulp or two from 1/2"),
                 !meaningful,
                 "{json}"
             );

@@ -96,7 +96,7 @@ fn arrays_of_reports_give_their_counts_or_their_refusals() {
             "ros2_zero_one" => assert!(says("no cell above 1: 0 and 1 are read as 0 % and 1 %"), "{record}"),
             "average_in_floats" => {
                 assert!(
-                    says("760 cells are within some ulp of 1/2") && record["meaningful"] == false,
+                    says("760 cells are an ulp or two from 1/2") && record["meaningful"] == false,
                     "{record}"
                 );
             }

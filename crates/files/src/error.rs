@@ -101,6 +101,8 @@ pub enum Place {
         /// The byte of the message, from 0.
         byte: Option<u64>,
     },
+    /// An option of the reader, by its name.
+    Option(&'static str),
 }
 
 impl Error {
@@ -264,7 +266,11 @@ impl From<mean_information::Error> for Error {
         {
             words = words.replacen(&value.to_string(), &short(value), 1);
         }
-        let mut refused = Self::new(ErrorKind::OutOfRange, words);
+        let kind = match error {
+            Refused::TooManyCells { .. } => ErrorKind::TooLarge,
+            _ => ErrorKind::OutOfRange,
+        };
+        let mut refused = Self::new(kind, words);
         match error {
             Refused::OutOfRange { value, allowed, .. } => refused.set(value, allowed, None),
             Refused::Item { index, value, allowed, .. } => {

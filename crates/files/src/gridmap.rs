@@ -100,7 +100,7 @@ fn read_version(input: &mut impl Read) -> Result<u8, Error> {
     }
 }
 
-/// Checks that an extent is that of so many cells, as MRPT does when it reads.
+/// Checks that an extent is that of `cells` cells, as MRPT does when it reads.
 fn check_side(axis: &str, [min, max]: [f64; 2], resolution: f64, cells: u32) -> Result<(), Error> {
     let extent = (max - min) / resolution;
     if (extent - f64::from(cells)).abs() <= 0.5 {
@@ -130,7 +130,7 @@ fn pass_options(mut input: impl Read) -> Result<(), Error> {
     input.by_ref().take(MOST_OPTIONS).read_to_end(&mut rest)?;
     if !at_end(input)? {
         let message = format!("goes on for more than {MOST_OPTIONS} bytes after its cells");
-        return Err(Error::new(ErrorKind::Format, message));
+        return Err(Error::new(ErrorKind::Unsupported, message));
     }
     match rest.last() {
         Some(&END) => Ok(()),

@@ -2,14 +2,14 @@
 
 use crate::bags::{self, MapTopic};
 use crate::cells::{Cells, CellsVisitor, Contents};
-use crate::error::{Error, ErrorKind};
+use crate::error::{Error, ErrorKind, Place};
 use crate::map::Map;
 use crate::npy::{self, MapsVisitor};
 use crate::options::{MAX_COUNTED, Mode, Options};
 use crate::pbstream::{self, Submap};
 use crate::ros::{self, Sink};
 use crate::scans::{ScanLog, ScanOptions};
-use crate::source::{Disk, ENDINGS, Opened, Source, open};
+use crate::source::{Disk, Opened, Source, open};
 use crate::trajectory::{Trajectory, tum};
 use crate::warning::Warning;
 use crate::{gridmap, npz};
@@ -145,7 +145,7 @@ fn read_as<T: Target>(
     let mut map = if is(&[".yaml", ".yml"]) {
         if options.unknown.is_some() && options.mode != Some(Mode::Probability) {
             let message = "a grey level for unknown needs mode probability; give both or neither";
-            return Err(Error::new(ErrorKind::Options, message));
+            return Err(Error::new(ErrorKind::Options, message).at(Place::Option("unknown")));
         }
         ros::read(source, path, open(source, path)?.input, options)?
     } else if is(&[".npy"]) || npz::split(path).is_some() {
@@ -176,6 +176,9 @@ fn read_as<T: Target>(
     map.files.push(file_of(path).to_owned());
     Ok(map)
 }
+
+/// The endings of map files, for messages.
+const ENDINGS: &str = ".yaml, .yml, .npy, .npz, .gridmap, .gridmap.gz, .mcap, .db3, .bag and .pbstream";
 
 /// The endings of images.
 const IMAGES: [&str; 12] =

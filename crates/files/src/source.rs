@@ -7,10 +7,6 @@ use std::fs::{self, File};
 use std::io::{self, BufRead, BufReader, Cursor, Seek};
 use std::path::{Path, PathBuf};
 
-/// The endings of map files, for messages.
-pub(crate) const ENDINGS: &str =
-    ".yaml, .yml, .npy, .npz, .gridmap, .gridmap.gz, .mcap, .db3, .bag and .pbstream";
-
 /// A place that files are opened from by their names: the yaml file of a ROS map names another one.
 pub trait Source {
     /// The reader of a file.
@@ -61,7 +57,7 @@ impl Source for Disk {
         let kind = fs::metadata(path)?;
         if kind.is_dir() {
             let refused = Error::new(ErrorKind::NotAFile, "is a directory");
-            return Err(refused.allowing("; allowed are ", format!("map files: {ENDINGS}")));
+            return Err(refused.allowing("; allowed are ", "files"));
         }
         if !kind.is_file() {
             let refused = Error::new(ErrorKind::NotAFile, "is not a regular file");

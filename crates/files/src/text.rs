@@ -47,7 +47,7 @@ impl<R: BufRead> Lines<R> {
         }
         self.number += 1;
         if read > MAX_LINE {
-            let refused = Error::new(ErrorKind::TooLarge, format!("line {} is longer", self.number));
+            let refused = Error::new(ErrorKind::Format, format!("line {} is longer", self.number));
             return Err(refused.allowing(" than ", format!("{MAX_LINE} bytes")).at(Place::Line(self.number)));
         }
         let ended = self.line.last() == Some(&b'\n');

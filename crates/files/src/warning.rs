@@ -250,7 +250,7 @@ impl fmt::Display for Warning {
                 )
             }
             Self::RepeatedKey { key } => {
-                write!(f, "the key {key} occurs twice: its first value is read, as yaml-cpp does")
+                write!(f, "the key occurs twice: {key}; its first value is read, as yaml-cpp does")
             }
             Self::MoreDocuments => {
                 write!(f, "the yaml file goes on after its first document, which alone is read")
@@ -279,7 +279,7 @@ impl fmt::Display for Warning {
             }
             Self::BesideUnknown { count } => write!(
                 f,
-                "{} within some ulp of 1/2, as unknown cells that were averaged are, and counted as observed",
+                "{} an ulp or two from 1/2: unknown cells that were averaged in floats, and counted as observed",
                 are(count)
             ),
             Self::OftenUnknownValue { grey, count, .. } => write!(

@@ -93,7 +93,7 @@ const FUNCTIONS: [Function; 7] = [
 /// How far plain floating point may be off: some operations on numbers below `2^10`, each within `2^-53` of it.
 const PLAIN: f64 = 1.0 / (1_u64 << 36) as f64;
 
-fn holds(x: Real, value: f64, magnitude: f64) -> bool {
+fn holds(x: RealInterval, value: f64, magnitude: f64) -> bool {
     let slack = PLAIN * (1.0 + magnitude);
     x.lower() - slack <= value && value <= x.upper() + slack
 }
@@ -220,7 +220,7 @@ fn a_difference_from_another_number_is_not_small() {
 
 #[test]
 fn a_real_divisor_divides_the_parts() {
-    let (x, y, d) = (Real::point(0.1), Real::point(0.7), Real::point(0.3));
+    let (x, y, d) = (RealInterval::point(0.1), RealInterval::point(0.7), RealInterval::point(0.3));
     let quotient = Complex::new(x, y) / Complex::new(d, ZERO);
     assert_eq!((quotient.re, quotient.im), (x / d, y / d));
 }

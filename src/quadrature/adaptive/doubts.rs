@@ -77,7 +77,7 @@ impl<T: Real> Panel<T> {
         [reducible, fixed]
     }
 
-    /// Returns the side of which the doubt is most of the reducible claim.
+    /// Returns the side whose doubt makes most of the reducible claim.
     pub(super) fn doubtful_side(&self) -> Option<usize> {
         let side = usize::from(self.doubts[1] > self.doubts[0]);
         // Below the noise it is noise; below the own claim halving serves both.

@@ -2,7 +2,7 @@
 
 use super::panel::{Panel, SIDES};
 use super::panels::{Panels, Totals};
-use super::rule::Reading;
+use super::rule::RuleValue;
 use super::settings::GaussKronrod;
 use super::stretch::Stretch;
 use crate::estimate::{Estimate, Status};
@@ -12,7 +12,7 @@ use crate::real::Real;
 pub(super) struct Integration<'a, T, F> {
     settings: &'a GaussKronrod<T>,
     f: F,
-    /// From the first point to the last.
+    /// The stretch from the first point to the last.
     whole: Stretch<T>,
     panels: Panels<T>,
     /// The places of the first and of the last panel.
@@ -205,8 +205,8 @@ fn not_finite<T>(stretch: Stretch<T>) -> Status<T> {
 /// `r` is the slowest of three: of the bands, of `d` to that of the panel before it was halved, and of the halving
 /// before that. Where they do not fall nothing is known, and the claim is infinite: so it is in a first panel whose
 /// bands fall by less than half, as those of any peak at its end do.
-fn claimed<T: Real>(reading: &Reading<T>, stretch: Stretch<T>, parent: Option<&Panel<T>>) -> Panel<T> {
-    let Reading { value, difference, decay, noise, spread, ends, .. } = *reading;
+fn claimed<T: Real>(reading: &RuleValue<T>, stretch: Stretch<T>, parent: Option<&Panel<T>>) -> Panel<T> {
+    let RuleValue { value, difference, decay, noise, spread, ends, .. } = *reading;
     // The slowest of the bands' fall and of the last two halvings' ("Slow convergence").
     let ratio = match parent {
         Some(parent) => decay.max(difference / parent.difference),

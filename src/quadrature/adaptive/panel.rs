@@ -18,7 +18,7 @@ pub(super) struct Panel<T> {
     pub(super) alike: bool,
     /// The ratio of the bands.
     pub(super) decay: T,
-    /// What rounding has done to the value.
+    /// The rounding error of the value.
     pub(super) noise: T,
     /// The largest value less the smallest.
     pub(super) spread: T,

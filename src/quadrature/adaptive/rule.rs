@@ -48,7 +48,7 @@ struct Table {
 
 /// The findings of one application of a rule to a stretch.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Reading<T> {
+pub(super) struct RuleValue<T> {
     /// The integral by all nodes.
     pub(super) value: T,
     /// The error that these values alone suggest, rounding apart.
@@ -126,7 +126,7 @@ impl Rule {
     }
 
     /// Applies the rule to a stretch; evaluates in ascending order.
-    pub(super) fn apply<T: Real>(self, f: &mut impl FnMut(T) -> T, stretch: Stretch<T>) -> Reading<T> {
+    pub(super) fn apply<T: Real>(self, f: &mut impl FnMut(T) -> T, stretch: Stretch<T>) -> RuleValue<T> {
         let table = self.table();
         let last = 2 * (table.nodes.len() - 1);
         let mut values = [T::zero(); MOST];
@@ -144,7 +144,7 @@ impl Rule {
 
 impl Table {
     /// Reads from the values at the nodes, in ascending order, what they tell of the stretch.
-    fn read<T: Real>(&self, values: &[T], stretch: Stretch<T>) -> Reading<T> {
+    fn read<T: Real>(&self, values: &[T], stretch: Stretch<T>) -> RuleValue<T> {
         let last = values.len() - 1;
         // Means rather than integrals: nothing overflows that need not.
         let half = |weight: f64| T::nearest(weight) * T::HALF;
@@ -196,7 +196,7 @@ impl Table {
             _ if values.iter().any(|value| value.is_nan()) => T::nan(),
             _ => T::infinity(),
         };
-        Reading {
+        RuleValue {
             value,
             difference: stretch.widths(difference),
             decay,

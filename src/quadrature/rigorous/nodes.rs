@@ -1,6 +1,6 @@
 //! Gauss-Legendre rules. Written by `proofs/gauss_legendre.py`; do not edit.
 
-/// Of each rule the positive nodes with their weights, scale 127, floored: what is dropped is below a unit.
+/// The positive nodes of each rule and their weights, scale 127, floored: what is dropped is below a unit.
 pub(super) const RULES: [&[(u128, u128)]; 12] = [
     &[
         (57844777109652815721342874401750896450, 110956748436324581535732490334912728220),

@@ -20,7 +20,7 @@ struct Sum {
 }
 
 /// The fate of a panel.
-enum Panel {
+enum Fate {
     /// Enclosed; the status tells why no narrower.
     Enclosed { value: Interval<Wide>, status: Status<f64> },
     /// Cut at this point: its halves are next.
@@ -93,7 +93,7 @@ impl<F: Integrand> Search<'_, F> {
             // Two ranges are kept for each panel that waits: all of them are enclosed.
             let limited = self.evaluations + 2 * panels.len() as u64 + MOST_EVALUATIONS > limit;
             match self.panel(&mut chooser, a, b, left * SHARE, limited) {
-                Panel::Enclosed { value, status } => {
+                Fate::Enclosed { value, status } => {
                     // What a panel does not use is left to those after it.
                     left -= width(value).min(left * SHARE);
                     sum.value = sum.value + value;
@@ -103,19 +103,19 @@ impl<F: Integrand> Search<'_, F> {
                         sum.status = status;
                     }
                 }
-                Panel::Cut(middle) => panels.extend([(middle, b), (a, middle)]),
-                Panel::Failed(status) => return Sum { value: Interval::WHOLE, size: f64::INFINITY, status },
+                Fate::Cut(middle) => panels.extend([(middle, b), (a, middle)]),
+                Fate::Failed(status) => return Sum { value: Interval::WHOLE, size: f64::INFINITY, status },
             }
         }
         sum
     }
 
     /// Decides what to do with the panel from `a` to `b`, which may add `allowed` to the width.
-    fn panel(&mut self, chooser: &mut Chooser, a: f64, b: f64, allowed: f64, limited: bool) -> Panel {
+    fn panel(&mut self, chooser: &mut Chooser, a: f64, b: f64, allowed: f64, limited: bool) -> Fate {
         // 1. The width times the range: "Panels".
         let length = Interval::constant(b) - Interval::constant(a);
         let range: Interval<f64> = self.range(a, b);
-        let undefined = Panel::Failed(Status::NotFinite { lower: a, upper: b });
+        let undefined = Fate::Failed(Status::NotFinite { lower: a, upper: b });
         if range.is_empty() {
             return undefined;
         }
@@ -125,7 +125,7 @@ impl<F: Integrand> Search<'_, F> {
                 return undefined;
             }
             let status = if width(strip) <= allowed { Status::Converged } else { Status::EvaluationLimit };
-            return Panel::Enclosed { value: strip, status };
+            return Fate::Enclosed { value: strip, status };
         }
         // 2. A rule, half of whose share the remainder may take: theorem (remainder).
         if let Some(choice) = chooser.choose(self.f, a, b, allowed / 2.0, &mut self.evaluations) {
@@ -133,30 +133,30 @@ impl<F: Integrand> Search<'_, F> {
             if value.is_empty() {
                 return undefined;
             }
-            return Panel::Enclosed { value, status: Status::Converged };
+            return Fate::Enclosed { value, status: Status::Converged };
         }
         // 3. Two halves, unless roundings at one point make the range: lemma (128 bits).
         let middle = 0.5 * a + 0.5 * b;
         let can_be_cut = a < middle && middle < b && b - a > NARROWEST * self.to - NARROWEST * self.from;
         if can_be_cut && !self.is_noise(range, middle) {
-            return Panel::Cut(middle);
+            return Fate::Cut(middle);
         }
         // In floats it is noise: once more in 128 bits.
         let range: Interval<Wide> = self.range(a, b);
         // Both contain the integral.
         let strip = strip.intersection(length * range);
         if can_be_cut && width(strip) > allowed && !self.is_noise(range, middle) {
-            return Panel::Cut(middle);
+            return Fate::Cut(middle);
         }
         let unresolved = Status::Unresolved { lower: a, upper: b };
         // An integrand without bound cannot be enclosed by ranges.
         if !strip.is_bounded() {
-            return Panel::Failed(unresolved);
+            return Fate::Failed(unresolved);
         }
         if self.is_undefined_within(a, b) {
             return undefined;
         }
-        Panel::Enclosed { value: strip, status: if can_be_cut { Status::Converged } else { unresolved } }
+        Fate::Enclosed { value: strip, status: if can_be_cut { Status::Converged } else { unresolved } }
     }
 
     /// Encloses the values of the integrand between `a` and `b`.

@@ -39,7 +39,7 @@ impl Ball {
         self.limbs.iter().all(|&limb| limb == 0)
     }
 
-    /// Adds.
+    /// Returns the sum of two balls.
     pub(crate) fn plus(mut self, other: &Self) -> Self {
         // A value stays below 2^64: nothing carries out.
         limbs::add(&mut self.limbs, &other.limbs);

@@ -8,24 +8,24 @@ use core::cmp::Ordering;
 
 /// A natural number: limbs, lowest first, the last of which is not 0.
 #[derive(Clone, Debug)]
-pub(crate) struct Natural {
+pub(crate) struct NaturalNumber {
     limbs: Limbs,
 }
 
-impl Default for Natural {
+impl Default for NaturalNumber {
     fn default() -> Self {
         Self { limbs: Limbs::zeros(0) }
     }
 }
 
-impl From<u64> for Natural {
+impl From<u64> for NaturalNumber {
     fn from(n: u64) -> Self {
         Self::from([n.into(), 0])
     }
 }
 
 /// Converts `low + high 2^128`.
-impl From<[u128; 2]> for Natural {
+impl From<[u128; 2]> for NaturalNumber {
     #[inline]
     fn from([low, high]: [u128; 2]) -> Self {
         let mut limbs = Limbs::zeros(4);
@@ -34,7 +34,7 @@ impl From<[u128; 2]> for Natural {
     }
 }
 
-impl Natural {
+impl NaturalNumber {
     /// Returns the number without limbs of 0 at the top.
     fn trimmed(mut self) -> Self {
         self.trim();
@@ -63,7 +63,7 @@ impl Natural {
         self.add_limbs(at, &limbs::at_bit(n, part));
     }
 
-    /// Adds.
+    /// Returns the sum of two numbers.
     pub(crate) fn plus(mut self, other: &Self) -> Self {
         self.add_limbs(0, &other.limbs);
         self
@@ -134,21 +134,21 @@ impl Natural {
     }
 }
 
-impl PartialEq for Natural {
+impl PartialEq for NaturalNumber {
     fn eq(&self, other: &Self) -> bool {
         *self.limbs == *other.limbs
     }
 }
 
-impl Eq for Natural {}
+impl Eq for NaturalNumber {}
 
-impl PartialOrd for Natural {
+impl PartialOrd for NaturalNumber {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl Ord for Natural {
+impl Ord for NaturalNumber {
     fn cmp(&self, other: &Self) -> Ordering {
         let (a, b) = (&self.limbs, &other.limbs);
         a.len().cmp(&b.len()).then_with(|| limbs::compare(a, b))
@@ -156,7 +156,7 @@ impl Ord for Natural {
 }
 
 /// Computes `n 2^e / divisor`, rounded once to nearest, ties to even, for a divisor that is not 0.
-pub(crate) fn round_quotient<T: Real>(n: &Natural, divisor: &Natural, e: i32) -> T {
+pub(crate) fn round_quotient<T: Real>(n: &NaturalNumber, divisor: &NaturalNumber, e: i32) -> T {
     leading(n, divisor, e).map_or(T::zero(), |(leading, sticky)| leading.nearest(sticky))
 }
 
@@ -177,7 +177,7 @@ impl Leading {
 /// Returns the leading 63 bits of `n 2^e / divisor`, and true if bits follow that are not 0; `None` if it is 0.
 ///
 /// The result depends on the number, not on the fraction that it is written as. Exponents stop at `-4096`.
-pub(crate) fn leading(n: &Natural, divisor: &Natural, e: i32) -> Option<(Leading, bool)> {
+pub(crate) fn leading(n: &NaturalNumber, divisor: &NaturalNumber, e: i32) -> Option<(Leading, bool)> {
     if n.is_zero() {
         return None;
     }
@@ -197,7 +197,7 @@ pub(crate) fn leading(n: &Natural, divisor: &Natural, e: i32) -> Option<(Leading
 }
 
 /// Shifts a divisor of at most 128 bits up to 128 bits, and returns with it the shift; `None` for longer ones.
-fn short(divisor: &Natural) -> Option<(u128, u32)> {
+fn short(divisor: &NaturalNumber) -> Option<(u128, u32)> {
     let n = match *divisor.limbs {
         [low] => u128::from(low),
         [low, high] => u128::from(high) << 64 | u128::from(low),
@@ -209,7 +209,7 @@ fn short(divisor: &Natural) -> Option<(u128, u32)> {
 /// Computes `n 2^shift / divisor`, below `2^64`, cut, for a divisor of 128 bits, and returns true with it if a
 /// remainder is left.
 #[inline]
-fn short_digit(n: &Natural, shift: usize, divisor: u128) -> (u64, bool) {
+fn short_digit(n: &NaturalNumber, shift: usize, divisor: u128) -> (u64, bool) {
     // The dividend has three limbs.
     let (whole, part) = (shift / 64, shift % 64);
     let limb = |k: usize| n.limbs.get(k.wrapping_sub(whole)).copied().unwrap_or(0);
@@ -233,7 +233,7 @@ fn short_digit(n: &Natural, shift: usize, divisor: u128) -> (u64, bool) {
 }
 
 /// Computes `n 2^scale / divisor`, in `(2^62, 2^64)`, cut, and returns true with it if a remainder is left.
-fn long_digit(n: &Natural, scale: i64, divisor: &Natural) -> (u64, bool) {
+fn long_digit(n: &NaturalNumber, scale: i64, divisor: &NaturalNumber) -> (u64, bool) {
     let length = divisor.limbs.len();
     let normalising = 64 * length - divisor.bits();
     // Where the scale is negative, as for a far longer dividend, the divisor is moved instead: by whole limbs.

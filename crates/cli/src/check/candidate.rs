@@ -29,9 +29,9 @@ impl Kind {
 /// The part that a cause has in an operation's failures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
-    /// It explains most of them.
+    /// A cause: most of them are explained by it.
     Cause,
-    /// It explains a quarter of them at least.
+    /// A pattern: at least a quarter of them is explained by it.
     Pattern,
 }
 

@@ -24,11 +24,11 @@ use std::collections::{HashMap, HashSet};
 
 /// An answer is that of a trap if it is as near to it as this, relatively.
 const TRAP_WIDTH: f64 = f64::EPSILON * 4_294_967_296.0; // 2^-20
-/// A flag says something if its tests fail so many times as often as those without it.
+/// The least ratio of failures of a flag's tests to those without it at which the flag says something.
 const LIFT: usize = 2;
 /// The weight of a flag: where failures are says less than what they are.
 const FLAG_WEIGHT: f64 = 0.7;
-/// After a trap, or a mistake that is fitted, that explains so many of the failures no other cause is needed.
+/// The part of the failures that a trap, or a fitted mistake, explains after which no other cause is needed.
 const WHOLE: f64 = 0.9;
 
 /// A cause: what some failures have in common.

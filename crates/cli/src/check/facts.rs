@@ -12,7 +12,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Weights of a cause: `PLAIN` for a certain but general fact, `PATTERN` for a numerical pattern.
 pub(super) const PLAIN: f64 = 0.95;
 const PATTERN: f64 = 0.9;
-/// A pattern shows in so many answers at least.
+/// The least number of answers in which a pattern shows.
 const LEAST: usize = 3;
 /// The largest error, in ulp, that is laid to rounding and not to a mistake.
 const FEW_ULP: f64 = 64.0;

@@ -61,9 +61,9 @@ pub enum Answered {
 /// The error that an answer may have.
 #[derive(Clone, Copy)]
 enum Tolerance {
-    /// In spacings of floats at the answer; [`NEAREST`] means the nearest float.
+    /// A number of spacings of floats at the answer; [`NEAREST`] means the nearest float.
     Ulp(f64),
-    /// Absolute.
+    /// An absolute error.
     Absolute(f64),
 }
 

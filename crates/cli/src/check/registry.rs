@@ -3,7 +3,7 @@
 use crate::output::{Record, Report, Value, folded, text_table};
 use mean_information::operations::{Argument, OPERATIONS, Operation, Shape};
 
-/// Equations are folded to about so many characters in the table.
+/// The number of characters, about, to which the table folds equations.
 const EQUATION_WIDTH: usize = 60;
 
 /// The list of every operation of the protocol.

@@ -15,7 +15,7 @@ use std::fmt::Write;
 const CAUSES_SHOWN: usize = 3;
 /// The least score of a cause that is shown, relative to the best one's.
 const LIKELY: f64 = 0.5;
-/// And whose score is at least this: what few of its tests show is chance.
+/// The least score of a cause that is shown: below it, few tests may agree by chance.
 const LEAST: f64 = 0.1;
 /// The most troubles of an operation that the table shows.
 const TROUBLES_SHOWN: usize = 3;

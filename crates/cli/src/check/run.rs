@@ -15,11 +15,11 @@ use std::time::Duration;
 
 /// Requests that are sent before the first of them is answered.
 const AHEAD: usize = 32;
-/// After so many troubles the rest of an operation is not run.
+/// The number of troubles after which the rest of an operation is not run.
 pub(super) const TROUBLES_PER_OPERATION: usize = 20;
-/// After so many lines that are no answers, such as those of debugging, nothing is run any more.
+/// The number of lines that are no answers, such as those of debugging, after which nothing is run any more.
 const STRAY_LINES: usize = 3;
-/// After so many answers that did not come in time nothing is run any more.
+/// The number of answers not in time after which nothing is run any more.
 pub(super) const TIME_OUTS: usize = 5;
 
 /// The outcome of a request.

@@ -79,7 +79,7 @@ fn cut(text: &str) -> String {
     one_line(&start) + if start.len() < text.len() { "..." } else { "" }
 }
 
-/// Returns a cause with its evidence, for an operation with so many failures.
+/// Returns a cause with its evidence, for an operation with `failures` failures.
 pub(super) fn cause(cause: &Cause, failures: usize) -> String {
     let Cause { role, kind, name, note, explained, tests, elsewhere, .. } = cause;
     let evidence = match (kind, elsewhere) {

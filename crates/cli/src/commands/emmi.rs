@@ -28,6 +28,9 @@ pub struct Arguments {
     /// What the numbers of the maps are; if absent, floats are probabilities and int8 are percentages.
     #[arg(long, value_enum)]
     encoding: Option<ArrayEncoding>,
+    /// The number of maps of floats that means unknown, or nan.
+    #[arg(long, value_name = "NUMBER|nan")]
+    unknown: Option<f64>,
     /// The side of a cell in metres.
     #[arg(long, value_name = "METRES", value_parser = positive::<f64>)]
     resolution: Option<f64>,
@@ -42,6 +45,7 @@ impl Arguments {
     pub(super) fn run(&self) -> Result<Status, Failure> {
         let options = Options {
             encoding: self.encoding,
+            unknown: self.unknown,
             resolution: self.resolution,
             max_cells: Some(self.max_cells),
             ..Options::default()
@@ -85,13 +89,13 @@ impl Arguments {
     }
 }
 
-/// What is computed of particles.
+/// The measures of the expected map and of the particles.
 struct Expected {
-    /// Of the expected map.
+    /// The measures of the expected map.
     measures: Measures,
-    /// `None` if nothing is observed in any particle of a weight above 0.
+    /// The mean of the particles; `None` if nothing is observed in any of a weight above 0.
     mean_of_particles: Option<Number>,
-    /// How many others of a weight above 0 there are in which nothing is observed.
+    /// The number of other particles of weight above 0 in which nothing is observed.
     unobserved: usize,
     particles: Vec<Measures>,
 }

@@ -6,7 +6,7 @@ use crate::measures::{Measures, NotMeaningful, Sums};
 use crate::output::{Files, Number, Record, Report, Value, Writing, short, table, with_notes, wrapped};
 use crate::plots::{self, HeatMap};
 use crate::progress::Progress;
-use crate::reading::{Reading, in_words};
+use crate::reading::{ReadingArguments, in_words};
 use crate::submaps;
 use clap::Args;
 use mean_information_files::{Map, read_map, read_map_contents};
@@ -30,7 +30,7 @@ pub struct Arguments {
     #[arg(long)]
     keep_going: bool,
     #[command(flatten)]
-    reading: Reading,
+    reading: ReadingArguments,
     #[command(flatten)]
     writing: Writing,
 }

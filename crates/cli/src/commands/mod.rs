@@ -49,8 +49,8 @@ pub enum Command {
     Map(map::Arguments),
     /// The mean information of the maps of a bag, one after the other as they were recorded.
     Bag(bag::Arguments),
-    /// Which trajectory makes the most consistent map of these scans: the mean information and the agreement of the map of each,
-    /// without ground truth.
+    /// The trajectory that makes the most consistent map of these scans: the mean information and the agreement of the map
+    /// of each, without ground truth.
     Trajectory(Box<trajectory::Arguments>),
     /// The mean information of a map against its resolution, by averaging cells 2 x 2, 4 x 4, ...; what lies beyond the
     /// map's edge is unknown.

@@ -4,7 +4,7 @@ use super::Status;
 use crate::failure::Failure;
 use crate::output::{Files, Writing};
 use crate::plots::{self, Drawing, Picture, SweepPlot};
-use crate::reading::Reading;
+use crate::reading::ReadingArguments;
 use crate::sweep::Sweep;
 use clap::Args;
 use mean_information_files::read_map;
@@ -20,7 +20,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE.svg|png")]
     plot: Option<PathBuf>,
     #[command(flatten)]
-    reading: Reading,
+    reading: ReadingArguments,
     #[command(flatten)]
     writing: Writing,
 }

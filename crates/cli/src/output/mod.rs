@@ -23,12 +23,12 @@ use clap::ValueEnum;
 /// The form of a result.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum Format {
-    /// For people.
+    /// A table for people.
     #[default]
     Table,
-    /// For programs: the keys of the contract, in its order.
+    /// JSON for programs: the keys of the contract, in its order.
     Json,
-    /// For spreadsheets: the columns are the keys of the JSON.
+    /// CSV for spreadsheets: the columns are the keys of the JSON.
     Csv,
 }
 

@@ -9,9 +9,9 @@ use std::fmt;
 /// that an `f32` does not show the digits of a widened `f64`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Number {
-    /// From a map in single precision.
+    /// A number of a map in single precision.
     Single(f32),
-    /// From a map in double precision, percent or bytes.
+    /// A number of a map in double precision, percent or bytes.
     Double(f64),
 }
 

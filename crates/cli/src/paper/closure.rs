@@ -5,7 +5,7 @@
 
 use super::{Claim, Figure, Section};
 use crate::failure::Failure;
-use crate::plots::{Chart, Colour, Curve, MapPanel, Marks, Panel, Scale, Sheet, Svg, panels};
+use crate::plots::{Chart, ChartPanel, Colour, Curve, MapPanel, Marks, Scale, Sheet, Svg, panels};
 use crate::simulation::{Filter, Journey, Random, RoomName, Scanner, Settings, trajectory::Motion};
 use mean_information::Error;
 use mean_information::elementary::sqrt;
@@ -150,7 +150,7 @@ impl Series {
             marks: Marks::Each,
             points: (0_u32..).map(f64::from).zip(self.steps.iter().map(of)).collect(),
         };
-        let panel = |vertical, curves| Panel {
+        let panel = |vertical, curves| ChartPanel {
             vertical,
             scale: Scale::Linear,
             curves,

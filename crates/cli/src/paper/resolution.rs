@@ -2,7 +2,7 @@
 
 use super::{Claim, Figure, Section};
 use crate::failure::Failure;
-use crate::plots::{Chart, Colour, Curve, MapPanel, Marks, Panel, Scale, Sheet, Svg, panels};
+use crate::plots::{Chart, ChartPanel, Colour, Curve, MapPanel, Marks, Scale, Sheet, Svg, panels};
 use crate::simulation::{Journey, RoomName, Scanner, insert};
 use mean_information::map::Grid;
 use mean_information::map::encoding::LogOdds;
@@ -117,7 +117,7 @@ impl Measured {
 
     fn chart(&self) -> Chart<2> {
         let mean = Tally::mean_information;
-        let panel = |vertical, scale, curves| Panel { vertical, scale, curves, marks: Vec::new() };
+        let panel = |vertical, scale, curves| ChartPanel { vertical, scale, curves, marks: Vec::new() };
         let curves = vec![
             self.few.curve("inserted, 720 beams", Colour::Blue, mean),
             self.many.curve("inserted, 3600 beams", Colour::Orange, mean),

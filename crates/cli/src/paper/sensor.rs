@@ -2,7 +2,7 @@
 
 use super::{Claim, Figure, Section};
 use crate::failure::Failure;
-use crate::plots::{Chart, Colour, Curve, Marks, Panel, Scale, Sheet, Svg};
+use crate::plots::{Chart, ChartPanel, Colour, Curve, Marks, Scale, Sheet, Svg};
 use mean_information::Real;
 use mean_information::sensor::{GaussianSensor, InverseSensorModel};
 
@@ -19,7 +19,7 @@ pub(super) fn section() -> Result<Section, Failure> {
         title: format!("Occupancy along a beam that read {RANGE} m, sigma {SIGMA} m"),
         horizontal: "distance from the sensor (m)",
         scale: Scale::Linear,
-        panels: [Panel {
+        panels: [ChartPanel {
             vertical: "occupancy",
             scale: Scale::Linear,
             curves: vec![Curve {

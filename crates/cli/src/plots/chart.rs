@@ -31,7 +31,7 @@ pub struct Chart<const PANELS: usize> {
     /// The scale of that axis.
     pub scale: Scale,
     /// The panels, from top to bottom.
-    pub panels: [Panel; PANELS],
+    pub panels: [ChartPanel; PANELS],
 }
 
 /// The scale of an axis.
@@ -45,7 +45,7 @@ pub enum Scale {
 
 /// Curves with one vertical axis.
 #[derive(Debug)]
-pub struct Panel {
+pub struct ChartPanel {
     /// The title of the vertical axis.
     pub vertical: &'static str,
     /// The scale of the vertical axis.
@@ -100,7 +100,7 @@ impl Colour {
 }
 
 impl Scale {
-    fn place(self, x: f64) -> f64 {
+    pub(super) fn place(self, x: f64) -> f64 {
         match self {
             Self::Linear => x,
             Self::Logarithmic => libm::log10(x),
@@ -108,7 +108,7 @@ impl Scale {
     }
 
     /// Returns the axis of numbers at these places, with a part of it free at its end.
-    fn axis(self, places: impl Iterator<Item = f64>, margin: f64, free: f64) -> Axis {
+    pub(super) fn axis(self, places: impl Iterator<Item = f64>, margin: f64, free: f64) -> Axis {
         let (low, high) =
             places.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
         let span = (high - low).max(1e-9);
@@ -120,7 +120,7 @@ impl Scale {
         Axis { range, ticks }
     }
 
-    fn label(self, place: f64) -> String {
+    pub(super) fn label(self, place: f64) -> String {
         match self {
             Self::Linear => short(place),
             Self::Logarithmic if place.fract() == 0.0 => power_of_ten(place as i32),
@@ -151,7 +151,7 @@ impl<const PANELS: usize> Chart<PANELS> {
     fn draw_panel<B: DrawingBackend>(
         &self,
         area: &DrawingArea<B, Shift>,
-        panel: &Panel,
+        panel: &ChartPanel,
     ) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
         let all = || self.panels.iter().flat_map(|panel| &panel.curves).flat_map(|curve| &curve.points);
         let own = || panel.curves.iter().flat_map(|curve| &curve.points);

@@ -14,14 +14,14 @@ pub(super) struct Side<'a> {
 }
 
 pub(super) type Frame<'a, B> = ChartContext<'a, B, Cartesian2d<Axis, Axis>>;
-pub(super) type Failure<E> = DrawingAreaErrorKind<E>;
+pub(super) type BackendError<E> = DrawingAreaErrorKind<E>;
 
 /// Draws the frame, its axes and the lines at their ticks.
 pub(super) fn frame<'a, B: DrawingBackend>(
     area: &DrawingArea<B, Shift>,
     horizontal: Side,
     vertical: Side,
-) -> Result<Frame<'a, B>, Failure<B::ErrorType>> {
+) -> Result<Frame<'a, B>, BackendError<B::ErrorType>> {
     let mut frame = ChartBuilder::on(area)
         .margin(12)
         .margin_right(28)
@@ -50,7 +50,7 @@ pub(super) fn curve<'a, B: DrawingBackend + 'a>(
     colour: RGBColor,
     marks: Marks,
     points: &[(f64, f64)],
-) -> Result<(), Failure<B::ErrorType>> {
+) -> Result<(), BackendError<B::ErrorType>> {
     let line = frame.draw_series(LineSeries::new(points.iter().copied(), colour.stroke_width(2)))?;
     if !name.is_empty() {
         line.label(name).legend(move |at| {
@@ -77,7 +77,7 @@ pub(super) fn curve<'a, B: DrawingBackend + 'a>(
 /// Draws the names of the curves in the upper right corner.
 pub(super) fn legend<'a, B: DrawingBackend + 'a>(
     frame: &mut Frame<'a, B>,
-) -> Result<(), Failure<B::ErrorType>> {
+) -> Result<(), BackendError<B::ErrorType>> {
     frame
         .configure_series_labels()
         .position(SeriesLabelPosition::UpperRight)

@@ -101,7 +101,7 @@ pub(super) fn block([width, height]: [usize; 2]) -> usize {
 }
 
 impl MapPicture {
-    /// Creates the picture of a map of so many cells, with a colour for each square of [`block`] cells.
+    /// Creates the picture of a map of `width` x `height` cells, with a colour for each square of [`block`] cells.
     pub(super) fn new(
         [width, height]: [usize; 2],
         geometry: &Geometry,

@@ -17,8 +17,8 @@ const GAP: f64 = 16.0;
 const TITLES: f64 = 50.0;
 /// The height of the scale below a map.
 const SCALE: f64 = 44.0;
-/// A cell is drawn as a square of pixels, so many that the map has about this many pixels a side: viewers that smooth
-/// what they enlarge would blur it.
+/// The pixels a side, about, of a map, whose cells are drawn as squares of pixels: viewers that smooth what they enlarge
+/// would blur it.
 const PIXELS: usize = 1000;
 /// The least length of the scale's bar, in pixels.
 const LEAST_BAR: f64 = 24.0;
@@ -62,8 +62,8 @@ impl MapPanel {
         Self::of_squares(size, grid.geometry(), &squares, title, text)
     }
 
-    /// Creates the panel of a map of so many cells, from a colour for each square of [`block`] cells, row by row from the
-    /// lowest.
+    /// Creates the panel of a map of `width` x `height` cells, from a colour for each square of [`block`] cells, row by row
+    /// from the lowest.
     ///
     /// # Errors
     /// None is known, but for a map without cells.
@@ -113,7 +113,7 @@ pub(super) fn colour(occupancy: Option<f64>) -> [u8; 3] {
     }
 }
 
-/// Draws the panels in rows of so many, each with a scale.
+/// Draws the panels in rows of `columns`, each with a scale.
 pub fn panels(panels: &[MapPanel], columns: usize) -> Vec<Vec<Svg>> {
     let ends =
         |k: usize, first: f64, of: fn(f64, f64) -> f64| panels.iter().map(|p| p.extent[k]).fold(first, of);

@@ -4,7 +4,7 @@ use super::drawing::{Drawing, Picture};
 use crate::failure::Failure;
 use crate::output::escaped;
 
-/// A picture of so many pixels, without its outermost tags.
+/// A picture of `width` x `height` pixels, without its outermost tags.
 #[derive(Clone, Debug)]
 pub struct Svg {
     width: u32,

@@ -11,7 +11,7 @@ use mean_information::map::Grid;
 use mean_information::map::encoding::Probability;
 use mean_information::scan::{Direction, Pose, ScanMap};
 
-/// A scan's beams are not independent; it counts as so many that are.
+/// The number of independent beams as which a scan counts: its own are not independent.
 const INDEPENDENT_BEAMS: f64 = 25.0;
 /// The part of returns that have nothing to do with the map: the least likelihood of one.
 const OUTLIERS: f64 = 0.05;

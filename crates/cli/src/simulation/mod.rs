@@ -35,7 +35,7 @@ pub struct Journey {
 }
 
 impl Journey {
-    /// Stops at so many poses along the route of a room. The noise of the ranges does not depend on the drift.
+    /// Stops at `poses` poses along the route of a room. The noise of the ranges does not depend on the drift.
     ///
     /// # Errors
     /// A drift that is negative or not finite.

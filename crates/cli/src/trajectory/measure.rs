@@ -117,8 +117,8 @@ fn inserted(
     Ok((tallied.into_map(), values))
 }
 
-/// Measures the maps of several trajectories, each by [`measure`], by so many threads: the same bits for any number of
-/// them. A thread holds one map at a time.
+/// Measures the maps of several trajectories, each by [`measure`], by `threads` threads: the same bits for any number
+/// of them. A thread holds one map at a time.
 ///
 /// # Errors
 /// The refusal of the first trajectory that has one, with its number.

@@ -1,7 +1,7 @@
 //! The page of a comparison: the answer, the table, the curves, the maps, and what the numbers mean.
 
-use super::comparison::Row;
 use super::pictures::Pictures;
+use super::row::Row;
 use crate::failure::Failure;
 use crate::one_line::one_line;
 use crate::output::{self, escaped, short};

@@ -6,8 +6,8 @@ use super::measure::Measured;
 use crate::failure::Failure;
 use crate::output::Number;
 use crate::plots::{
-    Chart, Colour, ConflictMap, Curve, Drawing, HeatMap, MapPanel, Marks, Panel, Picture, Scale, Shape, Svg,
-    conflict_scale,
+    Chart, ChartPanel, Colour, ConflictMap, Curve, Drawing, HeatMap, MapPanel, Marks, Picture, Scale, Shape,
+    Svg, conflict_scale,
 };
 use mean_information::scan::Pose;
 
@@ -50,7 +50,7 @@ impl Pictures<'_> {
     }
 
     /// Returns the chart of all curves, and the panel of their differences from the first if there are others.
-    fn curves(&self) -> (Chart<1>, Option<Panel>) {
+    fn curves(&self) -> (Chart<1>, Option<ChartPanel>) {
         let of = |first: Option<&[f64]>| -> Vec<Curve> {
             let labels = self.comparison.labels().into_iter().zip(self.measured).enumerate();
             labels
@@ -58,7 +58,8 @@ impl Pictures<'_> {
                 .map(|(index, (label, measured))| self.curve(index, label, &measured.series, first))
                 .collect()
         };
-        let panel = |vertical, curves| Panel { vertical, scale: Scale::Linear, curves, marks: Vec::new() };
+        let panel =
+            |vertical, curves| ChartPanel { vertical, scale: Scale::Linear, curves, marks: Vec::new() };
         let all = Chart {
             title: "mean information as scans come".to_owned(),
             horizontal: "time since the first scan (s)",
@@ -156,7 +157,7 @@ impl Pictures<'_> {
 }
 
 /// Puts the differences below the curves.
-fn both(all: Chart<1>, differences: Panel) -> Chart<2> {
+fn both(all: Chart<1>, differences: ChartPanel) -> Chart<2> {
     let Chart { title, horizontal, scale, panels: [values] } = all;
     Chart { title, horizontal, scale, panels: [values, differences] }
 }

@@ -1,7 +1,7 @@
 //! The signs that a comparison means little.
 
-use super::comparison::{Row, Used};
 use super::measure::BLOCKS;
+use super::row::{Row, Used};
 
 /// Half of the blocks, of ten scans each: below this a standard error says too little (`docs/evidence.md`, "Coverage").
 const FEW_SCANS: usize = 100;

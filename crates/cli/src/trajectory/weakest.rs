@@ -11,7 +11,7 @@ pub struct Weakest {
     pub times: [f64; 2],
     /// The mean of its positions, in metres.
     pub place: [f64; 2],
-    /// By how much the trajectory is below the best one, in bits per observed cell: with all scans, and without these.
+    /// The bits per observed cell by which the trajectory is below the best one: with all scans, and without these.
     pub below: [f64; 2],
 }
 

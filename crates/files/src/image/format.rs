@@ -46,8 +46,8 @@ impl Reader {
 fn unsupported(first: &[u8], name: Option<&str>) -> Error {
     let shown = first[..first.len().min(4)].escape_ascii().to_string();
     let what = name.map_or_else(
-        || format!("is no image this program reads: it begins with \"{shown}\""),
-        |name| format!("is {name}, not an image this program reads"),
+        || format!("is no image of a kind that is read: it begins with \"{shown}\""),
+        |name| format!("is {name}, not an image of a kind that is read"),
     );
     Error::new(ErrorKind::Unsupported, what)
         .at(Place::Byte(0))

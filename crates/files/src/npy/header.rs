@@ -181,7 +181,7 @@ impl Header {
         })
     }
 
-    /// Refuses a file that is not exactly as long as an array of so many elements.
+    /// Refuses a file that is not exactly as long as an array of `elements` elements.
     pub(super) fn check_length(&self, length: u64, elements: u64) -> Result<(), Error> {
         let claimed = u128::from(self.length) + u128::from(elements) * self.element.bytes() as u128;
         if claimed == u128::from(length) {

@@ -58,6 +58,10 @@ impl Description {
                 .with_value("")
                 .allowing(", allowed is ", "the path of an image file"));
         }
+        if image.contains('\0') {
+            let refused = quoted("image", &image, "image");
+            return Err(refused.allowing(", allowed is ", "a path without the character NUL"));
+        }
         let resolution =
             number(take("resolution"), "resolution", "a positive number of metres", |x| x > 0.0)?;
         let origin = origin(take("origin"))?;

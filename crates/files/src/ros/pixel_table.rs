@@ -117,7 +117,8 @@ impl<C: Copy + PartialEq> PixelTable<C> {
         }
     }
 
-    /// Does so for pixels of `PIXEL` bytes with samples of `SAMPLE` bytes, the high one first.
+    /// Calls `each` with the table index of every pixel of `PIXEL` bytes, whose samples have `SAMPLE` bytes, the high one
+    /// first.
     fn indices_from<const PIXEL: usize, const SAMPLE: usize>(
         &self,
         pixels: &[u8],
@@ -139,9 +140,9 @@ impl<C: Copy + PartialEq> PixelTable<C> {
 /// A place in the tables, by the weighted sum of a pixel's samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum TableIndex {
-    /// In that of opaque pixels.
+    /// An index into `opaque`.
     Opaque(usize),
-    /// In that of others.
+    /// An index into `clear`.
     Clear(usize),
 }
 

@@ -62,10 +62,10 @@ impl Sink for Contents {
     }
 }
 
-/// Pixels are counted in so many lanes in turn: equal neighbours would wait for each other.
+/// The number of lanes in which pixels are counted in turn: equal neighbours would wait for each other.
 const LANES: usize = 4;
 
-/// The number of pixels at each index of a [`PixelTable`]'s tables occurs.
+/// The number of pixels at each index of a [`PixelTable`]'s tables.
 enum IndexCounts {
     /// Pixels that are bytes, and their own index.
     Bytes(Box<Histogram>),
@@ -84,7 +84,7 @@ impl IndexCounts {
         }
     }
 
-    /// Counts some pixels.
+    /// Counts pixels by their index.
     fn extend<C: Copy + PartialEq>(&mut self, table: &PixelTable<C>, layout: &Layout, pixels: &[u8]) {
         match self {
             Self::Bytes(histogram) => histogram.add_cells(pixels),

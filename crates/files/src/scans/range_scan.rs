@@ -186,7 +186,7 @@ impl Bearings {
         }
     }
 
-    /// Refuses bearings that cannot be those of so many beams.
+    /// Refuses bearings that cannot be those of `beams` beams.
     fn check(&self, beams: usize) -> Result<(), Error> {
         match self {
             Self::Even { start, increment } => {

@@ -198,6 +198,7 @@ fn options_that_contradict_one_another_are_refused() {
     let options = Options { unknown: Some(127.0), mode: Some(Mode::Scale), ..Options::default() };
     let refused = refused_image(&pgm(1, 2, 255, &[3, 7]), &options);
     assert_eq!((refused.kind(), refused.file()), (ErrorKind::Options, Some(Path::new("map.yaml"))));
+    assert_eq!(refused.place(), Some(&Place::Option("unknown")));
 }
 
 /// A file keeps its name when the error passes through who read another one.

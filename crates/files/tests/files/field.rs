@@ -130,7 +130,7 @@ fn a_yaml_file_is_read_as_yaml_cpp_reads_it() {
     for (text, expected) in [
         (
             format!("{good}free_thresh: 0.25\nimage: other.pgm\n").into_bytes(),
-            "the key free_thresh occurs twice",
+            "the key occurs twice: free_thresh",
         ),
         (format!("{good}---\n{good}").into_bytes(), "goes on after its first document"),
         (format!("{good}...\n---\n[a, b").into_bytes(), "goes on after its first document"),

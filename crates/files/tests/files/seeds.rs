@@ -1,5 +1,6 @@
 //! The committed seeds of the fuzz targets, replayed on their properties.
 
+use crate::support::Random;
 use image::{DynamicImage, GrayImage, ImageFormat};
 use mean_information_test_support::formats::pbstream::{grid, integer, message, state, submap};
 use mean_information_test_support::formats::{GridMap, gzip, npy, pgm, raw_png, yaml, zlib};
@@ -7,6 +8,7 @@ use mean_information_test_support::properties;
 use std::fs;
 use std::io::{Cursor, Write};
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 use zip::CompressionMethod;
 use zip::write::{SimpleFileOptions, ZipWriter};
 
@@ -57,6 +59,34 @@ fn write_the_seeds() {
         for (name, bytes) in seeds() {
             fs::write(folder(target).join(name), bytes).unwrap();
         }
+    }
+}
+
+/// Changes some bytes of each seed of a file format, again and again, where no fuzzer is at hand: `cargo test -p
+/// mean-information-files --test files -- --ignored --nocapture mutated`.
+#[test]
+#[ignore = "takes a minute"]
+fn mutated_seeds_keep_the_properties() {
+    let mut random = Random::new(77);
+    for (target, property, seeds) in &TARGETS[..7] {
+        let (started, mut runs) = (Instant::now(), 0);
+        while started.elapsed() < Duration::from_secs(8) {
+            for (_, mut bytes) in seeds() {
+                for _ in 0..=random.below(4) {
+                    let at = random.below(bytes.len().max(1) as u32) as usize;
+                    match random.below(4) {
+                        0 => bytes.truncate(at),
+                        1 => bytes.insert(at, random.below(256) as u8),
+                        _ if bytes.is_empty() => {}
+                        2 => bytes[at] = random.below(256) as u8,
+                        _ => bytes[at] ^= 1 << random.below(8),
+                    }
+                }
+                property(&bytes);
+                runs += 1;
+            }
+        }
+        println!("{target}: {runs} runs");
     }
 }
 

@@ -5,7 +5,7 @@ use num_bigint::BigUint;
 use proptest::collection::vec;
 use proptest::prelude::*;
 
-fn big(n: &Natural) -> BigUint {
+fn big(n: &NaturalNumber) -> BigUint {
     n.limbs.iter().rev().fold(BigUint::ZERO, |sum, &limb| (sum << 64) + limb)
 }
 
@@ -15,8 +15,8 @@ fn limb() -> impl Strategy<Value = u64> {
 }
 
 /// Numbers of up to nine limbs.
-fn natural() -> impl Strategy<Value = Natural> {
-    vec(limb(), 0..9).prop_map(|limbs| Natural { limbs: limbs.into() }.trimmed())
+fn natural() -> impl Strategy<Value = NaturalNumber> {
+    vec(limb(), 0..9).prop_map(|limbs| NaturalNumber { limbs: limbs.into() }.trimmed())
 }
 
 proptest! {
@@ -57,7 +57,7 @@ proptest! {
             prop_assert_eq!(&kept(&kept(&kept(&sum.limbs, wanted), 5), 11)[..], &expected[..]);
         }
         let [low, high] = [n, n.rotate_left(17)];
-        prop_assert_eq!(big(&Natural::from([low, high])), BigUint::from(low) + (BigUint::from(high) << 128));
+        prop_assert_eq!(big(&NaturalNumber::from([low, high])), BigUint::from(low) + (BigUint::from(high) << 128));
     }
 
     /// Not above the quotient, and short of it by less than one unit of 63 bits, two of 64.
@@ -69,7 +69,7 @@ proptest! {
         if near {
             limbs.extend([u64::MAX, 1 << 63]);
         }
-        let d = Natural { limbs: limbs.into() };
+        let d = NaturalNumber { limbs: limbs.into() };
         let (Leading { m, e: exponent }, sticky) = leading(&n, &d, e).unwrap();
         let shift = exponent - e;
         let (scaled, divisor) =
@@ -93,12 +93,12 @@ proptest! {
     fn short_and_long_division_agree(
         n in [limb(), limb()], shift in 0_usize..64, d in [limb(), limb()], near in any::<bool>(),
     ) {
-        let number = |[low, high]: [u64; 2]| Natural::from([u128::from(high) << 64 | u128::from(low), 0]);
+        let number = |[low, high]: [u64; 2]| NaturalNumber::from([u128::from(high) << 64 | u128::from(low), 0]);
         let (n, divisor) = (number(n).shifted(shift), number(if near { [d[0], 1 << 63] } else { d }));
         prop_assume!(!n.is_zero() && !divisor.is_zero());
         let scale = (divisor.bits() + 63) as i64 - n.bits() as i64;
         let (normalised, normalising) = short(&divisor).unwrap();
-        prop_assert_eq!(big(&Natural::from([normalised, 0])), big(&divisor) << normalising);
+        prop_assert_eq!(big(&NaturalNumber::from([normalised, 0])), big(&divisor) << normalising);
         let moved = (scale + i64::from(normalising)) as usize;
         prop_assert_eq!(short_digit(&n, moved, normalised), long_digit(&n, scale, &divisor));
     }
@@ -122,11 +122,11 @@ proptest! {
     #[test]
     fn ties_go_to_even(m in 1_u64 << 52..1 << 53, d in natural(), e in -1000_i32..900) {
         prop_assume!(!d.is_zero());
-        let midpoint = d.times(&Natural::from(2 * m + 1));
+        let midpoint = d.times(&NaturalNumber::from(2 * m + 1));
         let even = f64::from_parts(m + m % 2, e + 1);
         prop_assert_eq!(round_quotient::<f64>(&midpoint, &d, e), even);
         let wide = d.shifted(80);
-        let near = midpoint.shifted(80).plus(&Natural::from(1));
+        let near = midpoint.shifted(80).plus(&NaturalNumber::from(1));
         prop_assert_eq!(round_quotient::<f64>(&near, &wide, e), f64::from_parts(m + 1, e + 1));
     }
 }

@@ -10,7 +10,7 @@ use crate::cell::{
     Cell, entropy, entropy_from_log_odds, information, information_from_log_odds, occupancy_from_log_odds,
 };
 use crate::rounded::oracle::{self, Oracle};
-use enclosure::Interval;
+use enclosure::Bounds;
 use std::ops::AddAssign;
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -42,7 +42,7 @@ impl Seen {
         names: [&str; N],
         x: f32,
         results: [f32; N],
-        enclosures: [Interval; N],
+        enclosures: [Bounds; N],
         wider: impl Fn(&Oracle) -> [Oracle; N],
     ) {
         for k in 0..N {

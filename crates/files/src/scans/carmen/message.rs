@@ -77,7 +77,7 @@ fn scan(
     Ok(record.map_err(|error| line.blame(error))?.with_laser(laser).with_odometry(odometry))
 }
 
-/// Reads a count, and so many numbers of any value. Memory follows the numbers, not the count.
+/// Reads a count, and as many numbers of any value. Memory follows the numbers, not the count.
 fn numbers(fields: &mut Fields<'_>, count: &str, what: &str) -> Result<Vec<f64>, Error> {
     let count = fields.count(count)?;
     let mut numbers = Vec::new();

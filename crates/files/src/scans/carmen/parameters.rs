@@ -85,7 +85,7 @@ impl Parameters {
         self.mount.iter().any(Option::is_some).then(|| Pose::new(x, y, yaw).ok())?
     }
 
-    /// Returns the bearings of so many beams.
+    /// Returns the bearings of `beams` beams.
     ///
     /// # Errors
     /// An [`Error`] if nothing says them, or the field of view says others than the resolution.

@@ -1,11 +1,9 @@
 //! `meaninfo emmi`: real particle sets against their expected values, MRPT's own average explained, and bad input.
 
-#[path = "../common/mod.rs"]
-mod common;
 mod refused;
 
+use crate::common::*;
 use approx::{abs_diff_eq, assert_abs_diff_eq};
-use common::*;
 use mean_information::expected::Hypotheses;
 use mean_information::map::encoding::MrptLogOdds;
 use mean_information::map::{Encoding, Grid};

@@ -1,0 +1,4 @@
+//! Tests of `meaninfo emmi`.
+
+mod common;
+mod particles;

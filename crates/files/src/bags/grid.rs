@@ -14,7 +14,7 @@ pub struct GridMessage<'a> {
     pub width: usize,
     /// Rows.
     pub height: usize,
-    /// Where the map lies, and the side of its cells.
+    /// The place of the map, and the side of its cells.
     pub geometry: Geometry,
     /// The percentages, row by row from the lowest, each from 0 to 100 or -1 for unknown.
     pub cells: &'a [u8],

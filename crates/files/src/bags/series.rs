@@ -22,7 +22,7 @@ pub struct Snapshot<'a> {
     pub width: usize,
     /// Rows.
     pub height: usize,
-    /// Where the map lies, and the side of its cells.
+    /// The place of the map, and the side of its cells.
     pub geometry: Geometry,
     /// The percentages, row by row from the lowest.
     pub cells: &'a [i8],

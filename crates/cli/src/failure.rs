@@ -79,6 +79,9 @@ impl From<Error> for Failure {
             ErrorKind::TooLarge => {
                 format!("{}; raise it with --max-cells if the file is meant", error.message())
             }
+            ErrorKind::Choice => {
+                format!("{}; `meaninfo bag --topic` names one, --force admits costmaps", error.message())
+            }
             ErrorKind::Options if error.place() == Some(&Place::Option("unknown")) => {
                 "--unknown needs --mode probability; give both or neither".to_owned()
             }

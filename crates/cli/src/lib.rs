@@ -15,10 +15,12 @@
 //! | [`output`] | numbers, tables, JSON and CSV, and where they go |
 //! | [`check`] | ports against the vectors |
 //! | [`measures`] | what is measured of a map |
+//! | `submaps` | the submaps of saved states, apart or together |
 //! | [`simulation`] | rooms, a robot in them, and the map it makes |
 //! | [`sweep`] | the measures against the size of cells |
+//! | [`series`] | the maps of a bag, measured one after the other |
 //! | [`convergence`] | grids of a circular room against their limit |
-//! | [`plots`] | pictures of maps, curves, sweeps and convergence |
+//! | [`plots`] | pictures of maps, curves, sweeps, bags and convergence |
 //! | [`paper`] | the figures and the claims of the report |
 //! | [`trajectory`] | trajectories compared by the maps that they make of the same scans |
 //! | [`commands`] | the arguments, and what they ask for |
@@ -38,7 +40,9 @@ pub mod port;
 mod progress;
 pub mod protocol;
 pub mod reading;
+pub mod series;
 pub mod simulation;
+mod submaps;
 pub mod sweep;
 pub mod trajectory;
 

@@ -2,6 +2,7 @@
 
 use crate::metres::positive;
 use clap::Args;
+use mean_information::cell;
 use mean_information_files::{ArrayEncoding, Mode, Options, Semantics, Warning};
 
 /// The options for reading map files.
@@ -56,6 +57,11 @@ pub fn in_words(warnings: &[Warning]) -> Vec<String> {
         Warning::OftenUnknownObserved { grey, .. } => {
             format!("{warning}; give --unknown {grey} if that grey means unknown")
         }
+        Warning::Clamped { least, greatest } => {
+            let most = [least, greatest].map(|&p| cell::information(p)).into_iter().fold(0.0, f32::max);
+            format!("{warning}, so that the mean information is at most {most:.3}")
+        }
+        Warning::SubmapsTogether { .. } => format!("{warning}; --submaps gives each a row"),
         Warning::OftenUnknownValue { value, .. } => {
             format!("{warning}; give --unknown {value} if it means unknown here")
         }

@@ -32,7 +32,9 @@ fn help_and_version_are_done() {
         assert_eq!((help.matches(&limit).count(), help.contains("2^")), (1, false), "{limit}");
     }
     let help = help.split_whitespace().collect::<Vec<_>>().join(" ");
-    for words in ["1 byte a cell, 8 in --mode probability", "17179869184 for PNG, and none for PGM"] {
+    for words in
+        ["1 byte a cell, 8 in --mode probability", "17179869184 for PNG and .npz, and none for PGM and .npy"]
+    {
         assert!(help.contains(words), "{help}");
     }
     assert!(stdout(&["sweep", "--help"]).contains("--plot"));
@@ -49,7 +51,7 @@ fn usage_errors_are_one_line() {
         (&["map"], "<FILE>"),
         (&["map", map, "--fromat", "json"], "'--format'"),
         (&["map", map, "--format", "xml"], "table, json, csv"),
-        (&["map", map, "--semantics", "ros3"], "nav2, ros1"),
+        (&["map", map, "--semantics", "ros3"], "nav2, nav2-humble, ros1"),
         (&["map", map, "--unknown", "65536"], "65535"),
         (&["map", map, "--unknown", "127"], "--mode probability"),
         (&["map", map, "--resolution", "0"], "positive"),

@@ -58,6 +58,8 @@ pub enum ErrorKind {
     TooLarge,
     /// Memory lacks for the cells, or cannot number them.
     OutOfMemory,
+    /// None, or several, of what the file holds can be meant: one must be named.
+    Choice,
     /// The options contradict one another.
     Options,
 }
@@ -90,6 +92,15 @@ pub enum Place {
     },
     /// An item of a list, from 0.
     Item(usize),
+    /// A message of a bag.
+    Message {
+        /// The topic.
+        topic: String,
+        /// The number among those of the topic, from 1.
+        number: u64,
+        /// The byte of the message, from 0.
+        byte: Option<u64>,
+    },
     /// An option of the reader, by its name.
     Option(&'static str),
 }

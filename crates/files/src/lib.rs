@@ -45,14 +45,17 @@
 //! | [`npy`] | NumPy's arrays |
 //! | `npz` | archives of them |
 //! | [`gridmap`] | MRPT's grid maps |
+//! | [`pbstream`] | Cartographer's saved states |
 //! | `text` | lines of text and their fields |
 //! | [`trajectory`] | [`Trajectory`]: poses by their times; TUM text |
 //! | [`scans`] | [`ScanLog`](scans::ScanLog): logs of range scans, CARMEN's |
+//! | [`bags`] | bags of messages, and the maps in them |
 //! | `read` | files by the ending of their names |
 //!
 //! The feature `clap` makes [`Semantics`], [`Mode`], [`ArrayEncoding`], [`scans::NoReturn`] and [`scans::TimeField`] values
 //! of a command line's options.
 
+pub mod bags;
 mod cells;
 mod error;
 pub mod gridmap;
@@ -61,6 +64,7 @@ mod map;
 pub mod npy;
 mod npz;
 mod options;
+pub mod pbstream;
 mod read;
 pub mod ros;
 pub mod scans;
@@ -76,8 +80,8 @@ pub use map::Map;
 pub use options::{ArrayEncoding, MAX_CELLS, MAX_COUNTED, Mode, Options, Semantics};
 pub use read::{
     file_of, read_map, read_map_contents, read_map_contents_from, read_map_from, read_particles,
-    read_particles_from, read_scans, read_scans_from, read_trajectory, read_trajectory_from, read_weights,
-    read_weights_from,
+    read_particles_from, read_scans, read_scans_from, read_submaps, read_submaps_from, read_trajectory,
+    read_trajectory_from, read_weights, read_weights_from,
 };
 pub use source::{Disk, Memory, Opened, Source};
 pub use trajectory::{Association, Trajectory, tum};

@@ -1,10 +1,12 @@
 //! Files by the ending of their names.
 
+use crate::bags::{self, MapTopic};
 use crate::cells::{Cells, CellsVisitor, Contents};
 use crate::error::{Error, ErrorKind, Place};
 use crate::map::Map;
 use crate::npy::{self, MapsVisitor};
 use crate::options::{MAX_COUNTED, Mode, Options};
+use crate::pbstream::{self, Submap};
 use crate::ros::{self, Sink};
 use crate::scans::{ScanLog, ScanOptions};
 use crate::source::{Disk, Opened, Source, open};
@@ -14,11 +16,15 @@ use crate::{gridmap, npz};
 use std::io::Read;
 use std::path::Path;
 
-/// Reads the map at `path` on the disk: as [`read_map_from`].
+/// Reads the map at `path` on the disk: as [`read_map_from`]; of a bag, [its last](bags::last_map) of the only topic of
+/// maps that is no costmap.
 ///
 /// # Errors
 /// As [`read_map_from`].
 pub fn read_map(path: &Path, options: &Options) -> Result<Map, Error> {
+    if bags::is_bag(path) {
+        return last_map(path, options);
+    }
     read_map_from(&Disk, path, options)
 }
 
@@ -41,6 +47,9 @@ pub fn read_map_contents(
     options: &Options,
     visitor: &mut impl CellsVisitor,
 ) -> Result<Map<Contents>, Error> {
+    if bags::is_bag(path) {
+        return last_map(path, options).map(Map::with);
+    }
     read_map_contents_from(&Disk, path, options, visitor)
 }
 
@@ -56,6 +65,12 @@ pub fn read_map_contents_from(
     visitor: &mut impl CellsVisitor,
 ) -> Result<Map<Contents>, Error> {
     read_as(source, path, options, Visiting(visitor)).map_err(|error| error.in_file(path))
+}
+
+/// Reads the last map of a bag.
+fn last_map(path: &Path, options: &Options) -> Result<Map, Error> {
+    let topic = bags::map_topic(path, &MapTopic::default())?;
+    bags::last_map(path, &topic, options)
 }
 
 /// What becomes of the cells of a map.
@@ -147,6 +162,14 @@ fn read_as<T: Target>(
             let message = "is only the image of a ROS map; give the yaml file that describes it";
             return Err(Error::new(ErrorKind::Unsupported, message).with_value(name));
         }
+        if is(&[".mcap", ".db3", ".bag"]) {
+            let message = "is a bag, whose last map is read from a disk only";
+            return Err(Error::new(ErrorKind::Unsupported, message));
+        }
+        if is(&[".pbstream"]) {
+            let message = "is a saved state of Cartographer, whose submaps are several grids, not one";
+            return Err(Error::new(ErrorKind::Unsupported, message));
+        }
         let refused = Error::new(ErrorKind::Unsupported, "is no map file by its name");
         return Err(refused.with_value(name).allowing("; allowed are ", ENDINGS));
     };
@@ -155,10 +178,28 @@ fn read_as<T: Target>(
 }
 
 /// The endings of map files, for messages.
-const ENDINGS: &str = ".yaml, .yml, .npy, .npz, .gridmap and .gridmap.gz";
+const ENDINGS: &str = ".yaml, .yml, .npy, .npz, .gridmap, .gridmap.gz, .mcap, .db3, .bag and .pbstream";
+
 /// The endings of images.
 const IMAGES: [&str; 12] =
     [".pgm", ".png", ".bmp", ".ppm", ".pbm", ".pnm", ".jpg", ".jpeg", ".tif", ".tiff", ".gif", ".webp"];
+
+/// Reads the submaps of Cartographer's saved state at `path` on the disk: as [`read_submaps_from`].
+///
+/// # Errors
+/// As [`read_submaps_from`].
+pub fn read_submaps(path: &Path, options: &Options) -> Result<Vec<Submap>, Error> {
+    read_submaps_from(&Disk, path, options)
+}
+
+/// Reads the submaps of Cartographer's saved state at `path` of `source`, whatever the file's name.
+///
+/// # Errors
+/// An [`Error`] naming the file: as [`pbstream::read`].
+pub fn read_submaps_from(source: &impl Source, path: &Path, options: &Options) -> Result<Vec<Submap>, Error> {
+    let read = |file: Opened<_>| pbstream::read(file.input, file.length, options);
+    source.open(path).and_then(read).map_err(|error| error.in_file(path))
+}
 
 /// Reads the maps of a filter's particles from the `.npy` array at `path` on the disk, and has `visitor` visit them.
 ///

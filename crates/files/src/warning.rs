@@ -157,6 +157,30 @@ pub enum Warning {
         /// The greatest angle between the robot's z axis and the world's, in degrees.
         greatest_degrees: f64,
     },
+    /// A bag ends within a record, or was not closed by who recorded it: only its whole messages are read.
+    BagCutShort {
+        /// The byte at which its last whole record ends.
+        byte: u64,
+        /// The number of messages before it.
+        messages: u64,
+    },
+    /// Updates of a map come before the map and are passed over.
+    UpdatesBeforeMap {
+        /// The number of updates.
+        count: u64,
+    },
+    /// The program that made the map keeps its probabilities within an interval.
+    Clamped {
+        /// The least probability.
+        least: f32,
+        /// The greatest probability.
+        greatest: f32,
+    },
+    /// Submaps are counted together, and a place that lies in several counts in each.
+    SubmapsTogether {
+        /// The number of submaps.
+        count: usize,
+    },
     /// Bytes 127 and 128 of an MRPT map before version 3 are read as unknown, as MRPT does.
     HalvesReadAsUnknown {
         /// The number of cells.
@@ -295,6 +319,21 @@ impl fmt::Display for Warning {
                 "{count} poses are pitched or rolled by more than 1 degree, up to {greatest_degrees:.1}: dropped, as \
                  scans lie in the plane"
             ),
+            Self::BagCutShort { byte, messages } => {
+                write!(
+                    f,
+                    "the bag is cut short at byte {byte} or was not closed: its {messages} whole messages are read"
+                )
+            }
+            Self::UpdatesBeforeMap { count } => {
+                write!(f, "{count} updates come before the first map and are passed over")
+            }
+            Self::Clamped { least, greatest } => {
+                write!(f, "probabilities are clamped to {least:.3} to {greatest:.3} by who made them")
+            }
+            Self::SubmapsTogether { count } => {
+                write!(f, "{count} submaps counted together: a place that lies in several counts in each")
+            }
             Self::HalvesReadAsUnknown { count, version } => write!(
                 f,
                 "{} of 127 or 128 of 255, read as unknown as MRPT does: version {version} cannot store 1/2",

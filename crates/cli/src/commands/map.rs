@@ -7,6 +7,7 @@ use crate::output::{Files, Number, Record, Report, Value, Writing, short, table,
 use crate::plots::{self, HeatMap};
 use crate::progress::Progress;
 use crate::reading::{ReadingArguments, in_words};
+use crate::submaps;
 use clap::Args;
 use mean_information_files::{Map, read_map, read_map_contents};
 use rayon::prelude::*;
@@ -15,12 +16,16 @@ use std::path::{Path, PathBuf};
 /// The arguments of `meaninfo map`.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// Maps: ROS .yaml (with its image), .npy, FILE.npz:KEY, MRPT .gridmap or .gridmap.gz.
+    /// Maps: ROS .yaml (with its image), .npy, FILE.npz:KEY, MRPT .gridmap or .gridmap.gz; or bags, .mcap, .db3, .bag or
+    /// the folder of one, whose last map is measured; or Cartographer's saved states, .pbstream.
     #[arg(value_name = "FILE", required = true)]
     maps: Vec<PathBuf>,
     /// Draw the information of every cell of the one map given to this PNG file.
     #[arg(long, value_name = "FILE.png")]
     heat_map: Option<PathBuf>,
+    /// Give each submap of a saved state a row, in place of one for all.
+    #[arg(long)]
+    submaps: bool,
     /// Measure the maps that can be read even if others cannot; the exit status is 2 still.
     #[arg(long)]
     keep_going: bool,
@@ -59,12 +64,14 @@ impl Arguments {
         let (mut measured, mut failures) = (Vec::with_capacity(results.len()), Vec::new());
         for result in results {
             match result {
-                Ok(mut map) => {
-                    files.read(std::mem::take(&mut map.files));
-                    if let (Some(path), Some(picture)) = (&self.heat_map, map.picture.take()) {
-                        files.add(path, picture);
+                Ok(rows) => {
+                    for mut map in rows {
+                        files.read(std::mem::take(&mut map.files));
+                        if let (Some(path), Some(picture)) = (&self.heat_map, map.picture.take()) {
+                            files.add(path, picture);
+                        }
+                        measured.push(map);
                     }
-                    measured.push(map);
                 }
                 Err(failure) => failures.push(failure),
             }
@@ -79,20 +86,28 @@ impl Arguments {
         }
     }
 
-    /// Measures one map, and draws it if a picture is wanted.
-    fn measure(&self, path: &Path) -> Result<MeasuredMap, Failure> {
+    /// Measures one map, or each submap of a saved state, and draws it if a picture is wanted.
+    fn measure(&self, path: &Path) -> Result<Vec<MeasuredMap>, Failure> {
         let options = self.reading.options();
         // Only a picture needs the cells themselves.
         if self.heat_map.is_some() {
             let map = read_map(path, &options)?;
             let measures = Measures::of(&map.cells).noticing(&map.warnings);
             let picture = drawn(path, &map, &measures)?;
-            return Ok(MeasuredMap::new(path, map, measures, Some(picture)));
+            return Ok(vec![MeasuredMap::new(path, map, measures, Some(picture))]);
+        }
+        if submaps::is_state(path) {
+            let measured = |(name, map): (String, Map<_>)| {
+                let measures = Measures::of_counts(&map.cells).noticing(&map.warnings);
+                let row = MeasuredMap::new(path, map, measures, None);
+                MeasuredMap { name, is_rectangle: self.submaps, ..row }
+            };
+            return Ok(submaps::read(path, self.submaps, &options)?.into_iter().map(measured).collect());
         }
         let mut sums = Sums::default();
         let map = read_map_contents(path, &options, &mut sums)?;
         let measures = Measures::of_contents(&map.cells, &sums).noticing(&map.warnings);
-        Ok(MeasuredMap::new(path, map, measures, None))
+        Ok(vec![MeasuredMap::new(path, map, measures, None)])
     }
 }
 
@@ -109,6 +124,8 @@ struct MeasuredMap {
     name: String,
     resolution: Option<f64>,
     measures: Measures,
+    /// Whether its cells lie in one rectangle: submaps together do not.
+    is_rectangle: bool,
     warnings: Vec<String>,
     /// The files that it was read from.
     files: Vec<PathBuf>,
@@ -120,12 +137,18 @@ impl MeasuredMap {
         let mut warnings = in_words(&map.warnings);
         warnings.extend(measures.not_meaningful.map(|why| why.warning().to_owned()));
         let Map { resolution, files, .. } = map;
-        Self { name: path.display().to_string(), resolution, measures, warnings, files, picture }
+        let name = path.display().to_string();
+        Self { name, resolution, measures, is_rectangle: true, warnings, files, picture }
     }
 
     fn record(&self) -> Record {
         let mut entries = vec![("map", Value::Text(self.name.clone()))];
         entries.extend(self.measures.entries(self.resolution));
+        if !self.is_rectangle {
+            for (_, size) in entries.iter_mut().filter(|(key, _)| matches!(*key, "width" | "height")) {
+                *size = Value::Given(None);
+            }
+        }
         entries.push(("meaningful", Value::Flag(self.measures.not_meaningful.is_none())));
         entries.push(("warnings", Value::Texts(self.warnings.clone())));
         Record(entries)
@@ -138,7 +161,8 @@ impl MeasuredMap {
         let side = self.resolution.map(|side| format!("\nof {} m", Number::given(side)));
         [
             wrapped(&self.name),
-            format!("{} × {}{}", m.width, m.height, side.unwrap_or_default()),
+            if self.is_rectangle { format!("{} × {}", m.width, m.height) } else { "submaps".to_owned() }
+                + &side.unwrap_or_default(),
             number
                 + &m.not_meaningful
                     .map(|why| format!("\nnot meaningful:\n{}", why.reason()))

@@ -1,5 +1,6 @@
 //! The arguments and commands of `meaninfo`, one command per file. Each computes everything before it writes anything.
 
+mod bag;
 mod check;
 mod converge;
 mod emmi;
@@ -46,6 +47,8 @@ impl Arguments {
 pub enum Command {
     /// The mean information of maps, and what it is made of.
     Map(map::Arguments),
+    /// The mean information of the maps of a bag, one after the other as they were recorded.
+    Bag(bag::Arguments),
     /// The trajectory that makes the most consistent map of these scans: the mean information and the agreement of the map
     /// of each, without ground truth.
     Trajectory(Box<trajectory::Arguments>),
@@ -77,6 +80,7 @@ impl Command {
     pub fn run(&self) -> Result<Status, Failure> {
         match self {
             Self::Map(arguments) => arguments.run(),
+            Self::Bag(arguments) => arguments.run(),
             Self::Trajectory(arguments) => arguments.run(),
             Self::Sweep(arguments) => arguments.run(),
             Self::Limit(arguments) => arguments.run(),

@@ -15,3 +15,4 @@ pub mod tum;
 pub use association::Association;
 pub use poses::Trajectory;
 pub(crate) use poses::check_time;
+pub(crate) use quaternion::yaw;

@@ -8,6 +8,11 @@ use std::f64::consts::PI;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Quaternion(pub(super) [f64; 4]);
 
+/// Returns the yaw of an orientation `[x, y, z, w]` of any length, as [`Quaternion::yaw`].
+pub(crate) fn yaw(orientation: [f64; 4]) -> f64 {
+    Quaternion(orientation).yaw()
+}
+
 impl Quaternion {
     /// Creates the turn by `yaw` radians about the z axis.
     ///

@@ -2,12 +2,15 @@
 
 mod arrays;
 mod bad;
+mod bag_messages;
+mod bags;
 mod decoded;
 mod errors;
 mod field;
 mod gridmaps;
 mod images;
 mod numpy;
+mod pbstreams;
 mod png_kinds;
 mod real;
 mod rules;

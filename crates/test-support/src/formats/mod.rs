@@ -3,6 +3,7 @@
 mod folder;
 mod gridmap;
 mod map;
+pub mod pbstream;
 mod png;
 
 pub use folder::{Folder, shared_data};

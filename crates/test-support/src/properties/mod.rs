@@ -3,6 +3,8 @@
 //! `fuzz/` has a target for each; `cargo test` replays the committed seeds on them, on stable.
 #![allow(clippy::missing_panics_doc, reason = "a property panics if it does not hold")]
 
+#[cfg(feature = "formats")]
+mod bags;
 mod builders;
 #[cfg(feature = "formats")]
 mod formats;
@@ -13,6 +15,8 @@ mod room;
 mod scans;
 mod tally;
 
+#[cfg(feature = "formats")]
+pub use bags::{bag, pbstream};
 pub use builders::{expected, scan};
 #[cfg(feature = "formats")]
 pub use formats::{decoded, gridmap, npy, npz, pgm, png, stack, yaml};

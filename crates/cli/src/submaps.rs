@@ -1,0 +1,51 @@
+//! The submaps of Cartographer's saved states, each by itself or counted together.
+
+use crate::failure::Failure;
+use mean_information::map::encoding::Probability;
+use mean_information_files::pbstream::Submap;
+use mean_information_files::{Counts, Map, Options, Warning, read_submaps};
+use std::path::Path;
+
+/// The counts of a submap, or of all.
+type Counted = Map<Counts<Probability<f32>>>;
+
+/// Tells whether a file is a saved state by its name.
+pub(crate) fn is_state(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("pbstream"))
+}
+
+/// Reads the submaps of a saved state, each with its name; or, unless they are `apart`, all of them as one, whose width
+/// and height are 0 and whose cells are not resampled: their counts are merged.
+pub(crate) fn read(path: &Path, apart: bool, options: &Options) -> Result<Vec<(String, Counted)>, Failure> {
+    let submaps = read_submaps(path, options)?;
+    if submaps.is_empty() {
+        return Err(Failure::file(path, "has no submaps"));
+    }
+    let name = path.display();
+    let files = || vec![path.to_owned()];
+    if apart {
+        let named = |submap: Submap| {
+            let state = if submap.is_finished { "" } else { ", unfinished" };
+            let name = format!("{name} submap {}, {}{state}", submap.trajectory, submap.index);
+            let resolution = Some(submap.resolution);
+            let warnings = vec![clamped(submap.clamp)];
+            (name, Map { cells: submap.counts, resolution, warnings, files: files() })
+        };
+        return Ok(submaps.into_iter().map(named).collect());
+    }
+    let first = submaps[0].resolution;
+    let resolution = submaps.iter().all(|submap| submap.resolution == first).then_some(first);
+    let widest = |[least, greatest]: [f32; 2], submap: &Submap| {
+        [least.min(submap.clamp[0]), greatest.max(submap.clamp[1])]
+    };
+    let clamp = submaps.iter().fold([f32::INFINITY, f32::NEG_INFINITY], widest);
+    let warnings = vec![Warning::SubmapsTogether { count: submaps.len() }, clamped(clamp)];
+    let values = submaps.into_iter().flat_map(|submap| submap.counts.values).collect();
+    let cells = Counts { width: 0, height: 0, values };
+    Ok(vec![(name.to_string(), Map { cells, resolution, warnings, files: files() })])
+}
+
+/// Creates the warning of clamped probabilities.
+fn clamped([least, greatest]: [f32; 2]) -> Warning {
+    Warning::Clamped { least, greatest }
+}

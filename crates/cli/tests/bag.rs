@@ -1,0 +1,148 @@
+//! `meaninfo bag`: the maps of bags that another writer wrote, and the contract of the output.
+
+mod common;
+
+use common::*;
+use serde_json::Value;
+
+const KEYS: [&str; 5] = ["time_s", "repeats", "changed_cells", "meaningful", "warnings"];
+
+fn bag(name: &str) -> String {
+    format!("{}/../files/tests/bags/{name}", env!("CARGO_MANIFEST_DIR"))
+}
+
+fn json(arguments: &[&str]) -> Vec<Value> {
+    let text = stdout(&[arguments, &["--format", "json"]].concat());
+    serde_json::from_str::<Value>(&text).unwrap().as_array().unwrap().clone()
+}
+
+/// The values of the maps by NumPy, each with its number.
+fn expected() -> Vec<Vec<(i64, u64)>> {
+    let text = std::fs::read_to_string(bag("expected.json")).unwrap();
+    let maps: Value = serde_json::from_str(&text).unwrap();
+    let pair = |pair: &Value| (pair[0].as_i64().unwrap(), pair[1].as_u64().unwrap());
+    maps.as_array()
+        .unwrap()
+        .iter()
+        .map(|map| map["values"].as_array().unwrap().iter().map(pair).collect())
+        .collect()
+}
+
+#[test]
+fn json_holds_the_contract() {
+    let text = stdout(&["bag", &bag("maps_mcap_zstd"), "--format", "json"]);
+    let [time, after @ ..] = KEYS;
+    let expected_keys = [&[time][..], &MEASURE_KEYS, &after].concat();
+    assert_eq!(keys(&text, 4)[..expected_keys.len()], expected_keys);
+    let rows = json(&["bag", &bag("maps_mcap_zstd")]);
+    // The third map undoes the update after the second, so all differ; but for the fourth, which says the same.
+    let of: Vec<_> = [0, 1, 2, 4, 5, 6].map(|index| expected()[index].clone()).to_vec();
+    assert_eq!(rows.len(), of.len());
+    for (row, values) in rows.iter().zip(of) {
+        assert_twins(row, 4);
+        let sum = |value: fn(f64) -> f64, wanted: fn(i64) -> bool| {
+            let terms = values.iter().filter(|(v, _)| wanted(*v));
+            terms.map(|&(v, n)| n as f64 * value(if v == -1 { 0.5 } else { v as f64 / 100.0 })).sum::<f64>()
+        };
+        let known = |v: i64| v != -1 && v != 50;
+        let (information, observed) = (sum(|p| 1.0 - entropy(p), known), sum(|_| 1.0, known));
+        assert_near(&row["information_bits"], information);
+        assert_near(&row["mean_information"], information / observed);
+        assert_near(&row["entropy_bits"], sum(entropy, |_| true));
+        assert_eq!(row["observed"], observed as u64);
+        assert_eq!(row["resolution_m"], f64::from(0.05_f32));
+    }
+    let column = |key: &str| rows.iter().map(|row| row[key].clone()).collect::<Vec<_>>();
+    assert_eq!(column("repeats"), [0, 0, 1, 0, 0, 0]);
+    assert_eq!(column("time_s")[0], 1_700_000_000.25);
+    assert_eq!(column("time_s")[2], 1_700_000_003.25);
+    let changed = column("changed_cells");
+    assert_eq!([&changed[0], &changed[5]], [&Value::Null; 2]);
+    assert!(changed[2].as_u64().is_some_and(|count| (1..=6).contains(&count)), "{changed:?}");
+    assert_eq!(rows[5]["warnings"][0], "size, resolution or place differ from the map before");
+}
+
+#[test]
+fn every_container_gives_the_same_rows() {
+    let first = stdout(&["bag", &bag("maps_none.bag"), "--format", "csv"]);
+    for name in
+        ["maps_bz2.bag", "maps_lz4.bag", "maps_mcap", "maps_mcap_zstd", "maps_mcap_lz4.mcap", "maps_db3"]
+    {
+        assert_eq!(stdout(&["bag", &bag(name), "--format", "csv"]), first, "{name}");
+    }
+}
+
+#[test]
+fn the_table_counts_from_the_first_map() {
+    let table = stdout(&["bag", &bag("maps_db3"), "--topic", "/map"]);
+    for words in ["13 × 7", "5 × 9", "repeats", "after 10 s: size, resolution or place differ"] {
+        assert!(table.contains(words), "{words}: {table}");
+    }
+}
+
+#[test]
+fn maps_that_come_too_soon_are_left_out() {
+    let times = |every: &str| {
+        let rows = json(&["bag", &bag("maps_mcap"), "--every", every]);
+        rows.iter().map(|row| row["time_s"].as_f64().unwrap() - 1_700_000_000.25).collect::<Vec<_>>()
+    };
+    assert_eq!(times("2"), [0.0, 2.0, 4.0, 6.0, 8.0, 10.0]);
+    assert_eq!(times("7"), [0.0, 8.0]);
+    assert_eq!(times("1e300"), [0.0]);
+}
+
+#[test]
+fn costmaps_are_refused_by_name() {
+    let path = bag("maps_lz4.bag");
+    let topic = "/global_costmap/costmap";
+    let line = refusal(&["bag", &path, "--topic", topic]);
+    assert!(line.contains("costs and not probabilities") && line.contains("--force"), "{line}");
+    let rows = json(&["bag", &path, "--topic", topic, "--force"]);
+    assert_eq!((rows.len(), &rows[0]["repeats"], &rows[0]["observed"]), (1, &5.into(), &2.into()));
+    let line = refusal(&["bag", &path, "--topic", "/other"]);
+    assert!(line.contains("has no topic /other") && line.contains("/map"), "{line}");
+}
+
+#[test]
+fn a_cut_bag_says_so_in_its_first_row() {
+    let folder = Folder::new();
+    let bytes = std::fs::read(bag("maps_mcap/maps_mcap.mcap")).unwrap();
+    let path = folder.write("cut.mcap", &bytes[..bytes.len() / 3]);
+    let rows = json(&["bag", path.to_str().unwrap()]);
+    let warning = rows[0]["warnings"][0].as_str().unwrap();
+    assert!(warning.starts_with("the bag is cut short at byte "), "{warning}");
+}
+
+#[test]
+fn a_plot_has_both_curves() {
+    let folder = Folder::new();
+    let plot = folder.write("plot.svg", "").with_file_name("maps.svg");
+    stdout(&["bag", &bag("maps_bz2.bag"), "--plot", plot.to_str().unwrap()]);
+    let text = std::fs::read_to_string(plot).unwrap();
+    roxmltree::Document::parse(&text).unwrap();
+    for words in [
+        "mean information of the observed cells",
+        "area of the observed cells",
+        "time after the first map (s)",
+    ] {
+        assert!(text.contains(words), "{words}");
+    }
+}
+
+#[test]
+fn meaninfo_map_measures_the_last_map() {
+    let path = bag("maps_mcap_lz4.mcap");
+    let last = json(&["bag", &path]).pop().unwrap();
+    let map = &json(&["map", &path])[0];
+    for key in [
+        "width",
+        "height",
+        "mean_information_hex",
+        "information_bits_hex",
+        "observed",
+        "unknown",
+        "resolution_m",
+    ] {
+        assert_eq!(map[key], last[key], "{key}");
+    }
+}

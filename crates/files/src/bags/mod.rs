@@ -1,0 +1,25 @@
+//! Bags, read without ROS: MCAP, ROS 1's `.bag` and, by the feature `sqlite`, rosbag2's `.db3`, alone or in its folder.
+//!
+//! A bag is read from its first byte to its last, without its index, so that one that was cut short gives all that is
+//! whole in it. Every reader hands the messages of the topics that a [`Visitor`] wants to it, in the order of the file,
+//! one at a time: memory holds one message. [`MapSeries`] makes maps of them.
+
+mod container;
+mod delivery;
+mod fields;
+mod grid;
+mod mcap;
+mod read;
+mod rosbag;
+mod series;
+#[cfg(feature = "sqlite")]
+mod sqlite;
+mod stream;
+mod topics;
+
+pub use delivery::{Encoding, Message, Topic, Visitor};
+pub use grid::{GridMessage, GridUpdate};
+pub use read::{is_bag, read_bag};
+pub use series::{Change, MapSeries, Snapshot, last_map};
+pub use stream::read_stream;
+pub use topics::{MapTopic, is_costmap, map_topic};

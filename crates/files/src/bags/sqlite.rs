@@ -1,0 +1,110 @@
+//! rosbag2's `.db3`: a table of topics and one of messages, in SQLite.
+
+use super::delivery::{Delivery, Encoding, Topic};
+use crate::error::{Error, ErrorKind};
+use crate::warning::Warning;
+use rusqlite::{Connection, ErrorCode, OpenFlags, Row, Statement};
+use std::path::Path;
+
+/// Says that nobody writes the file, so that SQLite puts none beside it.
+const IMMUTABLE: &str = "?immutable=1";
+
+/// Reads a file of a bag.
+pub(super) fn read_file(path: &Path, delivery: &mut Delivery<'_>) -> Result<Vec<Warning>, Error> {
+    let mut log = path.as_os_str().to_owned();
+    log.push("-wal");
+    if Path::new(&log).metadata().is_ok_and(|log| log.len() > 0) {
+        let log = log.to_string_lossy();
+        let message = format!("was not closed: {log} beside it holds messages; open it once with sqlite3");
+        return Err(Error::new(ErrorKind::Unsupported, message).with_value(log));
+    }
+    delivery.begin_file();
+    let flags =
+        OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_URI | OpenFlags::SQLITE_OPEN_NO_MUTEX;
+    let bag = Connection::open_with_flags(uri(path)?, flags).map_err(refused)?;
+    let mut topics = bag
+        .prepare("SELECT id, name, type, serialization_format FROM topics ORDER BY id")
+        .map_err(refused)?;
+    declare(&mut topics, delivery)?;
+    let wanted: Vec<String> = delivery.wanted().map(|id| id.to_string()).collect();
+    let query = format!(
+        "SELECT topic_id, timestamp, data FROM messages WHERE topic_id IN ({}) ORDER BY id",
+        wanted.join(", ")
+    );
+    let mut messages = bag.prepare(&query).map_err(refused)?;
+    hand_over(&mut messages, path, delivery)
+}
+
+/// Declares the topics.
+fn declare(topics: &mut Statement<'_>, delivery: &mut Delivery<'_>) -> Result<(), Error> {
+    let mut rows = topics.query([]).map_err(refused)?;
+    while let Some(row) = rows.next().map_err(refused)? {
+        let text = |column| {
+            row.get_ref(column).map_err(refused).and_then(|text| {
+                super::fields::utf8(text.as_bytes().map_err(|_| of_another_type("topics", column))?)
+            })
+        };
+        let topic = Topic::new(text(1)?.to_owned(), text(2)?, Encoding::named(text(3)?));
+        delivery.declare(number(row, "topics", 0)?, topic)?;
+    }
+    Ok(())
+}
+
+/// Hands over the messages.
+fn hand_over(
+    messages: &mut Statement<'_>,
+    path: &Path,
+    delivery: &mut Delivery<'_>,
+) -> Result<Vec<Warning>, Error> {
+    let mut rows = messages.query([]).map_err(refused)?;
+    loop {
+        match rows.next() {
+            Ok(None) => return Ok(Vec::new()),
+            Ok(Some(row)) => {
+                let [id, time] = [number(row, "messages", 0)?, number(row, "messages", 1)?];
+                let data = row.get_ref(2).map_err(refused)?;
+                let bytes = data.as_blob().map_err(|_| of_another_type("messages", 2))?;
+                delivery.hand_over(id, time, bytes)?;
+            }
+            // The pages of what comes first are there: the file lost its end.
+            Err(error) if is_damaged(&error) && delivery.messages() > 0 => {
+                let byte = path.metadata()?.len();
+                return Ok(vec![Warning::BagCutShort { byte, messages: delivery.messages() }]);
+            }
+            Err(error) => return Err(refused(error)),
+        }
+    }
+}
+
+/// Takes a number that is not negative.
+fn number(row: &Row<'_>, table: &str, column: usize) -> Result<u64, Error> {
+    let number =
+        row.get_ref(column).map_err(refused)?.as_i64().map_err(|_| of_another_type(table, column))?;
+    u64::try_from(number)
+        .map_err(|_| Error::out_of_range(format!("column {column} of {table}"), number, "a number from 0"))
+}
+
+/// Refuses a column that holds something else.
+fn of_another_type(table: &str, column: usize) -> Error {
+    Error::new(ErrorKind::Format, format!("has a column {column} of {table} of another type than rosbag2's"))
+}
+
+/// Takes the refusal of SQLite.
+#[allow(clippy::needless_pass_by_value, reason = "it is the end of the error")]
+fn refused(error: rusqlite::Error) -> Error {
+    Error::new(ErrorKind::Format, format!("is no bag of rosbag2 that SQLite reads: {error}")).caused_by(error)
+}
+
+/// Tells whether pages of the file are missing.
+fn is_damaged(error: &rusqlite::Error) -> bool {
+    matches!(error.sqlite_error_code(), Some(ErrorCode::DatabaseCorrupt | ErrorCode::SystemIoFailure))
+}
+
+/// Returns the file as a URI for SQLite.
+fn uri(path: &Path) -> Result<String, Error> {
+    let Some(text) = path.to_str() else {
+        return Err(Error::new(ErrorKind::Unsupported, "has a name that is not UTF-8, which SQLite needs"));
+    };
+    let escaped = text.replace('%', "%25").replace('?', "%3f").replace('#', "%23");
+    Ok(format!("file:{escaped}{IMMUTABLE}"))
+}

@@ -1,0 +1,15 @@
+//! Cartographer's saved states, `.pbstream`: the probability grids of its submaps, whole, where its exported images are
+//! thresholded.
+//!
+//! A state is eight bytes of magic, then records: their length in eight bytes, and a protobuf message in gzip. All is
+//! read as a stream, by hand: a dozen fields of four messages are needed, which no crate would read without holding a
+//! submap twice. Of a cell's value `v`, whose bit 15 is a mark, 0 is unknown; otherwise, in `f32` as in Cartographer,
+//!
+//! `p = 1 - (v k + (least - k))`, with `k = (greatest - least) / 32766`.
+
+mod fields;
+mod reading;
+mod submap;
+
+pub use reading::read;
+pub use submap::Submap;

@@ -1,0 +1,271 @@
+//! Messages of maps, put together byte by byte in MCAP: both orders of bytes, both serialisations, and what is refused.
+
+use mean_information_files::bags::{Change, MapSeries, read_stream};
+use mean_information_files::{Error, ErrorKind, Options, Place, Warning};
+
+const KIND: &str = "nav_msgs/msg/OccupancyGrid";
+const UPDATE: &str = "map_msgs/msg/OccupancyGridUpdate";
+
+fn text(text: &[u8]) -> Vec<u8> {
+    [&(text.len() as u32).to_le_bytes(), text].concat()
+}
+
+fn record(kind: u8, data: &[&[u8]]) -> Vec<u8> {
+    let data = data.concat();
+    [&[kind][..], &(data.len() as u64).to_le_bytes(), &data].concat()
+}
+
+/// A bag whose topic 7 is `/map` and 8 `/map_updates`; of the messages, the topic and the bytes.
+fn mcap(encoding: &str, messages: &[(u16, Vec<u8>)]) -> Vec<u8> {
+    let mut bytes = b"\x89MCAP0\r\n".to_vec();
+    for (id, name, kind) in [(7_u16, "/map", KIND), (8, "/map_updates", UPDATE)] {
+        bytes.extend(record(3, &[&id.to_le_bytes(), &text(kind.as_bytes()), &text(b"ros2msg"), &text(b"")]));
+        let [name, encoding] = [name, encoding].map(|name| text(name.as_bytes()));
+        bytes.extend(record(4, &[&id.to_le_bytes(), &id.to_le_bytes(), &name, &encoding, &[0; 4]]));
+    }
+    for (id, message) in messages {
+        bytes.extend(record(5, &[&id.to_le_bytes(), &[0; 4], &2500_u64.to_le_bytes(), &[0; 8], message]));
+    }
+    bytes.extend(record(15, &[&[0; 4]]));
+    bytes
+}
+
+/// Writes fields as CDR or, without its four bytes of head, as ROS 1.
+struct Writer {
+    bytes: Vec<u8>,
+    big_endian: bool,
+    ros1: bool,
+}
+
+impl Writer {
+    fn new(big_endian: bool, ros1: bool) -> Self {
+        let bytes = if ros1 { vec![] } else { vec![0, u8::from(!big_endian), 0, 0] };
+        let mut writer = Self { bytes, big_endian, ros1 };
+        if ros1 {
+            writer.number(9_u32.to_le_bytes());
+        }
+        for x in [5_u32, 6] {
+            writer.number(x.to_le_bytes());
+        }
+        let name: &[u8] = if ros1 { b"odom" } else { b"odom\0" };
+        writer.number((name.len() as u32).to_le_bytes());
+        writer.bytes.extend(name);
+        writer
+    }
+
+    fn number<const N: usize>(&mut self, mut bytes: [u8; N]) {
+        if !self.ros1 {
+            let end = 4 + (self.bytes.len() - 4).next_multiple_of(N);
+            self.bytes.resize(end, 0xee);
+        }
+        if self.big_endian {
+            bytes.reverse();
+        }
+        self.bytes.extend(bytes);
+    }
+
+    fn grid(mut self, resolution: f32, [width, height]: [u32; 2], count: u32, cells: &[u8]) -> Vec<u8> {
+        for x in [1_u32, 2] {
+            self.number(x.to_le_bytes());
+        }
+        self.number(resolution.to_le_bytes());
+        for x in [width, height] {
+            self.number(x.to_le_bytes());
+        }
+        for x in [0.5_f64, -2.0, 0.0, 0.0, 0.0, 0.0, 0.0] {
+            self.number(x.to_le_bytes());
+        }
+        self.number(count.to_le_bytes());
+        self.bytes.extend(cells);
+        self.bytes
+    }
+
+    fn update(mut self, [x, y]: [i32; 2], [width, height]: [u32; 2], cells: &[u8]) -> Vec<u8> {
+        for x in [x, y] {
+            self.number(x.to_le_bytes());
+        }
+        for x in [width, height] {
+            self.number(x.to_le_bytes());
+        }
+        self.number((cells.len() as u32).to_le_bytes());
+        self.bytes.extend(cells);
+        self.bytes
+    }
+}
+
+const CELLS: [u8; 6] = [0, 100, 255, 50, 7, 93];
+
+fn grid() -> Vec<u8> {
+    Writer::new(false, false).grid(0.25, [3, 2], 6, &CELLS)
+}
+
+fn update(at: [i32; 2], size: [u32; 2], cells: &[u8]) -> (u16, Vec<u8>) {
+    (8, Writer::new(false, false).update(at, size, cells))
+}
+
+/// Cells, and the difference to the map before.
+type Row = (Vec<i8>, Change);
+
+/// The maps of a bag.
+fn maps(bytes: &[u8], options: &Options) -> (Vec<Row>, Result<Vec<Warning>, Error>) {
+    let mut maps = Vec::new();
+    let mut series = MapSeries::new("/map", options, |map| {
+        assert_eq!((map.time_ns, map.geometry.resolution()), (2500, 0.25));
+        assert_eq!((map.geometry.origin(), map.geometry.yaw()), ([0.5, -2.0], 0.0));
+        maps.push((map.cells.to_vec(), map.change));
+    });
+    let read = read_stream(bytes, bytes.len() as u64, options, &mut series);
+    let read = read.map(|warnings| [warnings, series.warnings()].concat());
+    (maps, read)
+}
+
+fn refused(bytes: &[u8]) -> (Error, String) {
+    let error = maps(bytes, &Options { max_cells: Some(1000), ..Options::default() }).1.unwrap_err();
+    let line = error.to_string();
+    (error, line)
+}
+
+fn place(topic: &str, number: u64, byte: u64) -> Place {
+    Place::Message { topic: topic.to_owned(), number, byte: Some(byte) }
+}
+
+#[test]
+fn both_orders_of_bytes_and_both_serialisations() {
+    let cells: Vec<i8> = CELLS.iter().map(|cell| cell.cast_signed()).collect();
+    for (encoding, big_endian, ros1) in [("cdr", false, false), ("cdr", true, false), ("ros1", false, true)] {
+        let writer = || Writer::new(big_endian, ros1);
+        let messages = [
+            (7, writer().grid(0.25, [3, 2], 6, &CELLS)),
+            (8, writer().update([1, 0], [2, 2], &[100, 1, 7, 2])),
+        ];
+        let (maps, warnings) = maps(&mcap(encoding, &messages), &Options::default());
+        assert_eq!(warnings.unwrap(), []);
+        let updated = vec![0, 100, 1, 50, 7, 2];
+        assert_eq!(
+            maps,
+            [(cells.clone(), Change::First), (updated, Change::Cells(2))],
+            "{encoding} {big_endian}"
+        );
+    }
+}
+
+#[test]
+fn an_update_before_any_map_is_passed_over() {
+    let bytes =
+        mcap("cdr", &[update([0, 0], [1, 1], &[1]), (7, grid()), (7, grid()), update([0, 0], [0, 0], &[])]);
+    let (maps, warnings) = maps(&bytes, &Options::default());
+    let changes: Vec<_> = maps.iter().map(|map| map.1).collect();
+    assert_eq!(changes, [Change::First, Change::Cells(0), Change::Cells(0)]);
+    let warnings = warnings.unwrap();
+    assert_eq!(warnings, [Warning::UpdatesBeforeMap { count: 1 }]);
+    assert_eq!(warnings[0].to_string(), "1 updates come before the first map and are passed over");
+}
+
+#[test]
+fn updates_that_leave_the_map() {
+    for (at, size) in [([-1, 0], [1, 1]), ([2, 1], [2, 1]), ([0, 1], [1, 2]), ([3, 0], [u32::MAX, 1])] {
+        let (error, line) = refused(&mcap("cdr", &[(7, grid()), update(at, size, &[])]));
+        assert_eq!(
+            (error.kind(), error.place()),
+            (ErrorKind::OutOfRange, Some(&place("/map_updates", 1, 24)))
+        );
+        assert!(line.starts_with("message 1 of /map_updates, byte 24 of it: updates "), "{line}");
+        assert!(line.ends_with(", allowed is a rectangle within the map's 3 x 2 cells"), "{line}");
+    }
+}
+
+#[test]
+fn grids_that_are_none() {
+    let writer = || Writer::new(false, false);
+    let (error, line) =
+        refused(&mcap("cdr", &[(7, grid()), (7, writer().grid(0.25, [3, 2], 5, &CELLS[..5]))]));
+    assert_eq!(error.place(), Some(&place("/map", 2, 100)));
+    assert_eq!(line, "message 2 of /map, byte 100 of it: has 5 cells, allowed are 3 x 2 = 6");
+    let (error, line) = refused(&mcap("cdr", &[(7, writer().grid(0.25, [3, 2], 6, &CELLS[..5]))]));
+    assert_eq!((error.kind(), error.place()), (ErrorKind::Format, Some(&place("/map", 1, 104))));
+    assert_eq!(line, "message 1 of /map, byte 104 of it: has a field of 6 bytes, but 5 are left");
+    let (error, line) =
+        refused(&mcap("cdr", &[(7, writer().grid(0.25, [3, 2], 6, &[0, 100, 101, 0, 0, 0]))]));
+    assert_eq!((error.kind(), error.place()), (ErrorKind::OutOfRange, Some(&place("/map", 1, 106))));
+    assert!(
+        line.starts_with("message 1 of /map, byte 106 of it: cell 2 is 101, allowed is a percentage"),
+        "{line}"
+    );
+    let (error, _) = refused(&mcap("cdr", &[(7, writer().grid(-0.25, [3, 2], 6, &CELLS))]));
+    assert_eq!((error.kind(), error.place()), (ErrorKind::OutOfRange, Some(&place("/map", 1, 32))));
+    let (error, line) = refused(&mcap("cdr", &[(7, writer().grid(0.25, [1 << 31, 1 << 31], 6, &CELLS))]));
+    assert_eq!(error.kind(), ErrorKind::TooLarge);
+    assert!(line.contains("claims 2147483648 x 2147483648"), "{line}");
+}
+
+#[test]
+fn serialisations_that_are_none() {
+    let (error, line) = refused(&mcap("json", &[(7, b"{}".to_vec())]));
+    assert_eq!(error.kind(), ErrorKind::Unsupported);
+    assert_eq!(line, "message 1 of /map: has another serialisation, allowed are cdr and ros1");
+    let (_, line) = refused(&mcap("cdr", &[(7, vec![0, 7, 0])]));
+    let allowed = "allowed are CDR's [00, 00, ..] and [00, 01, ..]";
+    assert_eq!(line, format!("message 1 of /map, byte 0 of it: begins with [00, 07, 00], {allowed}"));
+    let (_, line) = refused(&mcap("cdr", &[(7, vec![0x28, 0xb5, 0x2f, 0xfd, 0])]));
+    assert!(line.contains("is compressed by itself"), "{line}");
+    let mut latin = grid();
+    latin[16] = 0xe9;
+    let (_, line) = refused(&mcap("cdr", &[(7, latin)]));
+    assert!(
+        line.starts_with("message 1 of /map, byte 16 of it: has a text that is not UTF-8: \u{fffd}dom"),
+        "{line}"
+    );
+}
+
+#[test]
+fn messages_longer_than_a_map_are_refused_before_they_are_read() {
+    let mut bytes = mcap("cdr", &[]);
+    bytes.truncate(bytes.len() - 13);
+    let claim = 22 + (1 << 40_u64);
+    bytes.extend([&[5][..], &u64::to_le_bytes(claim), &7_u16.to_le_bytes(), &[0; 20], b"some"].concat());
+    let (error, line) = refused(&bytes);
+    assert_eq!(error.kind(), ErrorKind::TooLarge);
+    assert_eq!(line, "message 1 of /map: claims 1099511627776 bytes, more than the limit of 1049576");
+}
+
+#[test]
+fn chunks_that_lie() {
+    let head = |size: u64, name: &[u8], packed: &[u8]| {
+        let length = (packed.len() as u64).to_le_bytes();
+        record(6, &[&[0; 16], &size.to_le_bytes(), &[1, 0, 0, 0], &text(name), &length, packed])
+    };
+    let bag = |chunk: Vec<u8>| {
+        let mut bytes = mcap("cdr", &[]);
+        let end = bytes.split_off(bytes.len() - 13);
+        [bytes, chunk, end].concat()
+    };
+    let inner = record(9, &[b"12345"]);
+    let start = mcap("cdr", &[]).len() as u64 - 13;
+    for (chunk, expected) in [
+        (head(14, b"", &inner), "is a chunk whose checksum is 00000001, but that of its bytes is"),
+        (head(15, b"", &inner), "is a chunk that claims 15 bytes and has 14"),
+        (head(13, b"", &inner), "is a chunk of 13 bytes with a record of kind 9 and 5 bytes"),
+        (head(14, b"snappy", &inner), "is compressed by snappy, allowed are zstd, lz4 and none"),
+        (head(14, b"zstd", &inner), "cannot be read: "),
+        (head(14, b"lz4", &inner), "cannot be read: "),
+    ] {
+        let (error, line) = refused(&bag(chunk));
+        assert_eq!(error.place(), Some(&Place::Byte(start)), "{line}");
+        assert!(line.starts_with(&format!("record at byte {start}: {expected}")), "{line}");
+    }
+}
+
+#[test]
+fn topics_that_nobody_or_two_declare() {
+    let (_, line) = refused(&mcap("cdr", &[(9, grid())]));
+    assert!(line.ends_with("has a message of topic number 9, which no record declares before it"), "{line}");
+    let mut bytes = mcap("cdr", &[]);
+    bytes.truncate(bytes.len() - 13);
+    bytes.extend(record(4, &[&[7, 0], &[8, 0], &text(b"/other"), &text(b"cdr"), &[0; 4]]));
+    let (error, line) = refused(&bytes);
+    assert_eq!(error.kind(), ErrorKind::Format);
+    assert!(
+        line.contains("gives the number 7 to two topics, /map of type nav_msgs/OccupancyGrid and /other"),
+        "{line}"
+    );
+}

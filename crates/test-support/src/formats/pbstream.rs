@@ -1,0 +1,51 @@
+//! Saved states of Cartographer put together from their parts.
+
+use super::gzip;
+
+const MAGIC: [u8; 8] = 0x7b1d_1f7b_5bf5_01db_u64.to_le_bytes();
+
+/// Writes an integer of any size.
+fn varint(mut number: u64) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    while number >= 0x80 {
+        bytes.push(number as u8 | 0x80);
+        number >>= 7;
+    }
+    bytes.push(number as u8);
+    bytes
+}
+
+/// Writes a field that is an integer.
+pub fn integer(number: u64, value: u64) -> Vec<u8> {
+    [varint(number << 3), varint(value)].concat()
+}
+
+/// Writes a field that is a message of these parts.
+pub fn message(number: u64, parts: &[&[u8]]) -> Vec<u8> {
+    let bytes = parts.concat();
+    [varint(number << 3 | 2), varint(bytes.len() as u64), bytes].concat()
+}
+
+/// Writes a grid that claims 3 x 2 cells of 0.25 m, with these cells and more fields.
+pub fn grid(cells: &[u64], more: &[u8]) -> Vec<u8> {
+    let size = message(3, &[&integer(1, 3), &integer(2, 2)]);
+    let limits = message(1, &[&[0x09], &0.25_f64.to_le_bytes(), &size]);
+    let cells: Vec<u8> = cells.iter().flat_map(|&cell| varint(cell)).collect();
+    message(4, &[&limits, &message(2, &[&cells]), more])
+}
+
+/// Writes a record with submap 5 of trajectory 2, in the plane.
+pub fn submap(of_plane: &[u8]) -> Vec<u8> {
+    message(3, &[&message(1, &[&integer(1, 2), &integer(2, 5)]), &message(2, &[&integer(3, 1), of_plane])])
+}
+
+/// Writes a state of these records.
+pub fn state(records: &[Vec<u8>]) -> Vec<u8> {
+    let mut bytes = MAGIC.to_vec();
+    for record in records {
+        let packed = gzip(record);
+        bytes.extend((packed.len() as u64).to_le_bytes());
+        bytes.extend(packed);
+    }
+    bytes
+}

@@ -1,0 +1,72 @@
+//! Bags and saved states: each is read or refused, and a bag that was cut is read up to the cut.
+
+use mean_information_files::bags::{MapSeries, Message, Topic, Visitor, read_stream};
+use mean_information_files::{Error, Options, pbstream as states};
+
+/// Small, so that a claim is soon above it.
+const MAX_CELLS: u64 = 1 << 16;
+
+/// A message: its topic, its number, its time, its bytes.
+type Taken = (String, u64, u64, Vec<u8>);
+
+/// Takes the messages of all topics.
+#[derive(Default)]
+struct All(Vec<Taken>);
+
+impl Visitor for All {
+    fn wants(&mut self, _: &Topic) -> bool {
+        true
+    }
+
+    fn take(&mut self, message: &Message<'_>) -> Result<(), Error> {
+        let Message { topic, number, time_ns, bytes } = *message;
+        self.0.push((topic.name.clone(), number, time_ns, bytes.to_vec()));
+        Ok(())
+    }
+}
+
+fn options() -> Options {
+    Options { max_cells: Some(MAX_CELLS), ..Options::default() }
+}
+
+/// Returns the messages of a bag.
+fn messages(bytes: &[u8]) -> Vec<Taken> {
+    let mut all = All::default();
+    match read_stream(bytes, bytes.len() as u64, &options(), &mut all) {
+        Ok(warnings) => assert!(warnings.len() <= 1),
+        Err(error) => assert!(!error.to_string().is_empty()),
+    }
+    all.0
+}
+
+/// Reads a bag, whole and cut in the middle: all messages before the cut are the same. Then the maps of a topic.
+pub fn bag(bytes: &[u8]) {
+    let whole = messages(bytes);
+    let cut = messages(&bytes[..bytes.len() - bytes.len() / 3]);
+    assert!(cut.len() <= whole.len() && cut == whole[..cut.len()]);
+    let mut series = MapSeries::new("/map", &options(), |map| {
+        assert_eq!(map.cells.len(), map.width * map.height);
+        assert!(map.cells.len() as u64 <= MAX_CELLS);
+        assert!(map.cells.iter().all(|cell| (-1..=100).contains(cell)));
+        assert!(map.geometry.resolution() > 0.0 && map.geometry.resolution().is_finite());
+    });
+    if let Err(error) = read_stream(bytes, bytes.len() as u64, &options(), &mut series) {
+        assert!(!error.to_string().is_empty());
+    }
+}
+
+/// Reads a saved state: it is refused, or every cell of its submaps is counted once and is a probability.
+pub fn pbstream(bytes: &[u8]) {
+    match states::read(bytes, bytes.len() as u64, &options()) {
+        Ok(submaps) => {
+            for submap in submaps {
+                let counts = submap.counts;
+                let cells: u64 = counts.values.iter().map(|&(_, count)| count).sum();
+                assert!(cells <= MAX_CELLS && cells == (counts.width * counts.height) as u64);
+                assert!(counts.values.iter().all(|(p, _)| (0.0..=1.0).contains(p)));
+                assert!(submap.resolution > 0.0 && submap.clamp[0] < submap.clamp[1]);
+            }
+        }
+        Err(error) => assert!(!error.to_string().is_empty()),
+    }
+}

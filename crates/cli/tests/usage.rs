@@ -52,7 +52,7 @@ fn usage_errors_are_one_line() {
         (&["map", map, "--fromat", "json"], "'--format'"),
         (&["map", map, "--format", "xml"], "table, json, csv"),
         (&["map", map, "--semantics", "ros3"], "nav2, nav2-humble, ros1"),
-        (&["map", map, "--unknown", "65536"], "65535"),
+        (&["map", map, "--unknown", "65536"], "--mode probability"),
         (&["map", map, "--unknown", "127"], "--mode probability"),
         (&["map", map, "--resolution", "0"], "positive"),
         (&["map", map, "--resolution", "nan"], "positive"),

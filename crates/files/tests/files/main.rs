@@ -3,6 +3,7 @@
 mod arrays;
 mod bad;
 mod bag_messages;
+mod bag_seeds;
 mod bags;
 mod decoded;
 mod errors;

@@ -1,8 +1,8 @@
 //! The committed seeds of the fuzz targets, replayed on their properties.
 
+use crate::bag_seeds;
 use crate::support::Random;
 use image::{DynamicImage, GrayImage, ImageFormat};
-use mean_information_test_support::formats::pbstream::{grid, integer, message, state, submap};
 use mean_information_test_support::formats::{GridMap, gzip, npy, pgm, raw_png, yaml, zlib};
 use mean_information_test_support::properties;
 use std::fs;
@@ -22,8 +22,8 @@ const TARGETS: [Target; 17] = [
     ("npy", properties::npy, npy_seeds),
     ("npz", properties::npz, npz_seeds),
     ("gridmap", properties::gridmap, gridmap_seeds),
-    ("bag", properties::bag, bag_seeds),
-    ("pbstream", properties::pbstream, pbstream_seeds),
+    ("bag", properties::bag, bag_seeds::bag),
+    ("pbstream", properties::pbstream, bag_seeds::pbstream),
     ("carmen_log", properties::carmen_log, carmen_log_seeds),
     ("trajectory", properties::trajectory, trajectory_seeds),
     ("grid", properties::grid, grid_seeds),
@@ -222,31 +222,6 @@ fn gridmap_seeds() -> Vec<(&'static str, Vec<u8>)> {
         ("version_2", old),
         ("zipped", gzip(&small)),
         ("cut", small[..57].to_vec()),
-    ]
-}
-
-fn bag_seeds() -> Vec<(&'static str, Vec<u8>)> {
-    let kinds = [
-        ("plain_1", "maps_none.bag"),
-        ("bz2", "maps_bz2.bag"),
-        ("lz4_1", "maps_lz4.bag"),
-        ("plain_2", "maps_mcap/maps_mcap.mcap"),
-        ("zstd", "maps_mcap_zstd/maps_mcap_zstd.mcap"),
-        ("lz4_2", "maps_mcap_lz4.mcap"),
-    ];
-    kinds.map(|(name, file)| (name, fs::read(crate::bags::bag(file)).unwrap())).to_vec()
-}
-
-fn pbstream_seeds() -> Vec<(&'static str, Vec<u8>)> {
-    let whole = state(&[integer(1, 2), submap(&grid(&[0, 1, 32767, 32769, 32768, 20000], b""))]);
-    let many = message(3, &[&integer(1, 1 << 40), &integer(2, 1 << 40)]);
-    let claims_more =
-        state(&[submap(&message(4, &[&message(1, &[&[0x09], &0.25_f64.to_le_bytes(), &many])]))]);
-    vec![
-        ("cut", whole[..whole.len() - 9].to_vec()),
-        ("plain", whole),
-        ("distances", state(&[submap(&grid(&[7; 6], &message(5, &[])))])),
-        ("claims_more", claims_more),
     ]
 }
 

@@ -1,0 +1,29 @@
+//! The seeds of bags and of saved states.
+
+use mean_information_test_support::formats::pbstream::{grid, integer, message, state, submap};
+use std::fs;
+
+pub(crate) fn bag() -> Vec<(&'static str, Vec<u8>)> {
+    let kinds = [
+        ("plain_1", "maps_none.bag"),
+        ("bz2", "maps_bz2.bag"),
+        ("lz4_1", "maps_lz4.bag"),
+        ("plain_2", "maps_mcap/maps_mcap.mcap"),
+        ("zstd", "maps_mcap_zstd/maps_mcap_zstd.mcap"),
+        ("lz4_2", "maps_mcap_lz4.mcap"),
+    ];
+    kinds.map(|(name, file)| (name, fs::read(crate::bags::bag(file)).unwrap())).to_vec()
+}
+
+pub(crate) fn pbstream() -> Vec<(&'static str, Vec<u8>)> {
+    let whole = state(&[integer(1, 2), submap(&grid(&[0, 1, 32767, 32769, 32768, 20000], b""))]);
+    let many = message(3, &[&integer(1, 1 << 40), &integer(2, 1 << 40)]);
+    let claims_more =
+        state(&[submap(&message(4, &[&message(1, &[&[0x09], &0.25_f64.to_le_bytes(), &many])]))]);
+    vec![
+        ("cut", whole[..whole.len() - 9].to_vec()),
+        ("plain", whole),
+        ("distances", state(&[submap(&grid(&[7; 6], &message(5, &[])))])),
+        ("claims_more", claims_more),
+    ]
+}

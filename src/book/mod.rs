@@ -23,6 +23,7 @@ chapters! {
     notation;
     cell;
     map;
+    octrees;
     sensor;
     grids;
     scan;

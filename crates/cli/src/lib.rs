@@ -9,6 +9,7 @@
 //! | [`port`] | the library as a port |
 //! | `one_line` | text of others in one line |
 //! | `metres` | lengths as the command line takes them |
+//! | `clamp` | the occupancies of a tree that only tells free from occupied |
 //! | `progress` | a bar for long work |
 //! | [`Failure`] | why a command was not done |
 //! | [`reading`] | how files are read, and their warnings, in words of options |
@@ -16,6 +17,7 @@
 //! | [`check`] | ports against the vectors |
 //! | [`measures`] | what is measured of a map |
 //! | `submaps` | the submaps of saved states, apart or together |
+//! | [`octree`] | what is measured of an octree, at each depth |
 //! | [`simulation`] | rooms, a robot in them, and the map it makes |
 //! | [`sweep`] | the measures against the size of cells |
 //! | [`series`] | the maps of a bag, measured one after the other |
@@ -26,12 +28,14 @@
 //! | [`commands`] | the arguments, and what they ask for |
 
 pub mod check;
+mod clamp;
 pub mod commands;
 pub mod convergence;
 mod failure;
 pub mod hex_float;
 pub mod measures;
 mod metres;
+pub mod octree;
 mod one_line;
 pub mod output;
 pub mod paper;
@@ -46,4 +50,5 @@ mod submaps;
 pub mod sweep;
 pub mod trajectory;
 
+pub use clamp::Clamp;
 pub use failure::Failure;

@@ -84,6 +84,13 @@ impl Measures {
         Self::new(size, tally, || tally.unknown() > 0)
     }
 
+    /// Takes the measures of an octree by the tally of its finest cells, which lie in no rectangle: its width and height are 0.
+    pub(crate) fn of_octree(tally: &Tally<f64>, has_two_values: bool) -> Self {
+        let measures = Self::new([0; 2], tally, || true);
+        let two_valued = has_two_values.then_some(NotMeaningful::TwoValued);
+        Self { not_meaningful: measures.not_meaningful.or(two_valued), ..measures }
+    }
+
     /// Takes the measures of a tally; `marked` tells whether a cell is marked as unknown, not only as `p = 1/2`.
     fn new<T: Real>([width, height]: [usize; 2], tally: &Tally<T>, marked: impl FnOnce() -> bool) -> Self {
         let observed = tally.observed() > 0;
@@ -178,6 +185,8 @@ impl CellsVisitor for Sums {
 pub enum NotMeaningful {
     /// Every observed cell has `p` 0 or 1.
     Thresholded,
+    /// Every free leaf of an octree has one value, and every occupied leaf one.
+    TwoValued,
     /// There are no cells.
     NoCells,
     /// Every cell is unknown.
@@ -206,6 +215,7 @@ impl NotMeaningful {
     pub fn reason(self) -> &'static str {
         match self {
             Self::Thresholded => "thresholded",
+            Self::TwoValued => "two values",
             Self::NoCells => "no cells",
             Self::NothingObserved => "nothing observed",
             Self::AllFiftyPercent => "all 50 percent",
@@ -218,6 +228,10 @@ impl NotMeaningful {
         match self {
             Self::Thresholded => {
                 "thresholded: every observed cell has p = 0 or 1, so the mean information is 1 whatever the map shows"
+            }
+            Self::TwoValued => {
+                "two-valued: every free leaf has one value and every occupied leaf one, so the mean information is of these \
+                 two values and of how many cells have each, not of evidence"
             }
             Self::NoCells => "the map has no cells, so there is no mean information",
             Self::NothingObserved => {

@@ -1,5 +1,6 @@
 //! How map files are read, as the command line says it, and what it says of their warnings.
 
+use crate::clamp::Clamp;
 use crate::metres::positive;
 use clap::Args;
 use mean_information::cell;
@@ -27,6 +28,10 @@ pub struct ReadingArguments {
     /// The side of a cell of an .npy array in metres.
     #[arg(long, value_name = "METRES", value_parser = positive::<f64>)]
     resolution: Option<f64>,
+    /// The occupancies of free and of occupied leaves of an octree in a .bt file, which only tells them apart: OctoMap's
+    /// clamping limits are 0.1192,0.971. If absent, 0 and 1.
+    #[arg(long, value_name = "MIN,MAX")]
+    clamp: Option<Clamp>,
     /// Refuse a map of more cells than this before any is read; if absent, of more than 268435456 where cells are kept:
     /// 1 byte a cell, 8 in --mode probability, and as many in .npy arrays as the file has. Where `meaninfo map` only
     /// counts cells, which takes no memory, the limit is 17179869184 for PNG and .npz, and none for PGM and .npy.
@@ -35,6 +40,11 @@ pub struct ReadingArguments {
 }
 
 impl ReadingArguments {
+    /// Returns the occupancies of the leaves of a `.bt` file.
+    pub(crate) fn clamp(&self) -> Clamp {
+        self.clamp.unwrap_or_default()
+    }
+
     /// Returns the options of the readers.
     pub fn options(&self) -> Options {
         Options {

@@ -1,10 +1,11 @@
 //! The measures of a map against the size of its cells.
 
 use crate::measures::Measures;
+use crate::octree::MeasuredDepths;
 use crate::output::{Number, Record, Report, Value, table, with_notes};
 use crate::progress::Progress;
 use crate::reading::in_words;
-use mean_information_files::{Map, with_grid};
+use mean_information_files::{Map, octree, with_grid};
 
 /// The measures of a map at cells 1, 2, 4, ... times as wide, until one cell holds it all.
 #[derive(Debug)]
@@ -14,6 +15,8 @@ pub struct Sweep {
     pub resolution: Option<f64>,
     /// The steps, from the map itself to the coarsest.
     pub steps: Vec<Step>,
+    /// True of an octree, whose cells lie in no rectangle.
+    has_depths: bool,
     warnings: Vec<String>,
 }
 
@@ -46,7 +49,14 @@ impl Sweep {
         }
         let mut warnings = in_words(&map.warnings);
         warnings.extend(steps[0].measures.not_meaningful.map(|why| why.warning().to_owned()));
-        Ok(Self { name, resolution: map.resolution, steps, warnings })
+        Ok(Self { name, resolution: map.resolution, steps, has_depths: false, warnings })
+    }
+
+    /// Takes the measures of an octree at each depth, from that of the finest cells to the root.
+    pub fn of_depths(name: String, depths: MeasuredDepths) -> Self {
+        let MeasuredDepths { resolution, measures, warnings } = depths;
+        let steps = measures.into_iter().enumerate().map(|(up, measures)| Step { k: 1 << up, measures });
+        Self { name, resolution: Some(resolution), steps: steps.collect(), has_depths: true, warnings }
     }
 
     /// Returns the side of a cell at a step, in metres.
@@ -56,16 +66,28 @@ impl Sweep {
 
     fn record(&self, step: &Step) -> Record {
         let m = &step.measures;
-        Record(vec![
+        let [width, height] = match self.depth(step) {
+            Some(_) => [Value::Given(None), Value::Given(None)],
+            None => [m.width, m.height].map(|side| Value::Count(side as u64)),
+        };
+        let depth = self.depth(step).map(|depth| ("depth", Value::Count(depth)));
+        let mut entries = vec![
             ("k", Value::Count(step.k as u64)),
             ("resolution_m", Value::Given(self.cell_size(step))),
-            ("width", Value::Count(m.width as u64)),
-            ("height", Value::Count(m.height as u64)),
+            ("width", width),
+            ("height", height),
             ("observed", Value::Count(m.observed())),
             ("mean_information", Value::Computed(m.mean_information)),
             ("information_bits", Value::Computed(Some(m.information))),
             ("entropy_bits", Value::Computed(Some(m.entropy))),
-        ])
+        ];
+        entries.extend(depth);
+        Record(entries)
+    }
+
+    /// Returns the depth in the octree.
+    fn depth(&self, step: &Step) -> Option<u64> {
+        self.has_depths.then(|| u64::from(octree::DEPTH - step.k.ilog2()))
     }
 }
 
@@ -83,9 +105,14 @@ impl Report for Sweep {
         let rows = self.steps.iter().map(|step| {
             let m = &step.measures;
             [
-                format!("{0} × {0}", step.k),
+                self.depth(step)
+                    .map_or_else(|| format!("{0} × {0}", step.k), |depth| format!("depth {depth}")),
                 self.cell_size(step).map_or("unknown".to_owned(), |side| Number::given(side).to_string()),
-                format!("{} × {}", m.width, m.height),
+                if self.has_depths {
+                    (m.observed() + m.unknown).to_string()
+                } else {
+                    format!("{} × {}", m.width, m.height)
+                },
                 m.observed().to_string(),
                 m.mean_information.map_or("none".to_owned(), |x| x.to_string()),
                 format!("{:.3}", m.information.widen()),

@@ -3,6 +3,7 @@
 mod common;
 
 use common::*;
+use mean_information_test_support::formats::{Node, shared_data};
 use serde_json::Value;
 
 const KEYS: [&str; 18] = [
@@ -199,5 +200,71 @@ fn control_characters_in_names_do_not_reach_the_terminal() {
         let table = stdout(&[command, &map]);
         assert!(!table.chars().any(|c| c.is_control() && c != '\n'), "{table:?}");
         assert!(table.contains("a\\u{1b}[2Jb\\u{9b}31m\\nc.yaml: thresholded"), "{table}");
+    }
+}
+
+/// An octree has no rectangle, and its rows have two more keys; so have those of a map beside it.
+#[test]
+fn an_octree_is_measured_by_its_finest_cells() {
+    let folder = Folder::new();
+    let map = folder.ros_map("room", 5, &GREYS, "scale");
+    let path = folder.write("tree.ot", Node::small().lowered(13).full(false));
+    let tree = path.to_str().unwrap();
+    let rows = json(&["map", tree, &map]);
+    let counts = [(-0.4_f64, 64.0), (0.85, 8.0), (-0.4, 1.0), (2.25, 1.0), (-1.5, 8.0)];
+    let information = |l: f64| 1.0 - entropy(1.0 / (1.0 + libm::exp(-l)));
+    let sum: f64 = counts.iter().map(|&(l, n)| n * information(f64::from(l as f32))).sum();
+    assert_near(&rows[0]["mean_information"], sum / 82.0);
+    assert_near(&rows[0]["entropy_bits"], 82.0 - sum);
+    assert_near(&rows[0]["observed_volume_m3"], 82.0 * 0.05 * 0.05 * 0.05);
+    assert_eq!(
+        (&rows[0]["leaves"], &rows[0]["observed"], &rows[0]["resolution_m"]),
+        (&5.into(), &82.into(), &0.05.into())
+    );
+    assert_eq!(
+        (&rows[0]["free"], &rows[0]["occupied"], &rows[0]["meaningful"]),
+        (&73.into(), &9.into(), &true.into())
+    );
+    for key in ["width", "height", "unknown", "observed_area_m2", "observed_area_m2_hex"] {
+        assert!(rows[0][key].is_null(), "{key}");
+    }
+    assert_eq!(
+        (&rows[1]["leaves"], &rows[1]["observed_volume_m3"], &rows[1]["width"]),
+        (&Value::Null, &Value::Null, &5.into())
+    );
+    let csv = stdout(&["map", tree, &map, "--format", "csv"]);
+    assert!(csv.lines().next().unwrap().contains("observed_area_m2_hex,leaves,observed_volume_m3,"), "{csv}");
+    assert!(stdout(&["map", tree]).contains("5 leaves"));
+    assert!(refusal(&["map", tree, "--heat-map", "a.png"]).contains("tree.ot: is an octree"));
+}
+
+/// A `.bt` file says free and occupied only; `--clamp` gives these a number, but no meaning.
+#[test]
+fn a_binary_octree_means_nothing() {
+    let folder = Folder::new();
+    let path = folder.write("tree.bt", Node::small().lowered(13).binary());
+    let tree = path.to_str().unwrap();
+    let row = &json(&["map", tree])[0];
+    assert_eq!((&row["mean_information"], &row["meaningful"]), (&1.0.into(), &false.into()));
+    assert!(row["warnings"][0].as_str().unwrap().starts_with("thresholded"), "{row}");
+    let row = &json(&["map", tree, "--clamp", "0.1192,0.971"])[0];
+    let mean = (73.0 * (1.0 - entropy(0.1192)) + 9.0 * (1.0 - entropy(0.971))) / 82.0;
+    assert_near(&row["mean_information"], mean);
+    assert_eq!(row["meaningful"], false);
+    assert!(row["warnings"][0].as_str().unwrap().starts_with("two-valued"), "{row}");
+    assert!(refusal(&["map", tree, "--clamp", "0.6,0.9"]).contains("MIN,MAX with 0 <= MIN < 1/2 < MAX <= 1"));
+}
+
+/// The figures of docs/octrees.md.
+#[test]
+fn octomap_s_own_trees_are_measured() {
+    let Some(data) = shared_data().map(|data| data.join("octomap")).filter(|data| data.exists()) else {
+        return println!("skipped: no octrees");
+    };
+    let of = |name: &str| data.join(name).to_str().unwrap().to_owned();
+    let rows = json(&["map", &of("geb079.bt"), &of("spherical_scan.ot"), "--clamp", "0.1192,0.971"]);
+    for (row, mean, volume) in [(&rows[0], "0.528118", "581.85"), (&rows[1], "0.036430", "18.48")] {
+        assert_eq!(format!("{:.6}", row["mean_information"].as_f64().unwrap()), mean);
+        assert_eq!(format!("{:.2}", row["observed_volume_m3"].as_f64().unwrap()), volume);
     }
 }

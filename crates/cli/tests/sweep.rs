@@ -4,6 +4,7 @@ mod common;
 
 use approx::abs_diff_eq;
 use common::*;
+use mean_information_test_support::formats::Node;
 use serde_json::Value;
 
 const ROW_KEYS: [&str; 11] = [
@@ -218,4 +219,45 @@ fn the_png_has_both_curves_and_the_same_bytes_on_every_run() {
     };
     assert!(pixels([0, 90, 170], 0..half) > 500 && pixels([0, 90, 170], half..image.height) == 0);
     assert!(pixels([190, 75, 0], half..image.height) > 500 && pixels([190, 75, 0], 0..half) == 0);
+}
+
+/// An octree is averaged depth by depth, children that are missing as unknown.
+#[test]
+fn an_octree_is_swept_by_depth() {
+    let folder = Folder::new();
+    let path = folder.write("tree.ot", Node::small().lowered(13).full(false));
+    let json: Value =
+        serde_json::from_str(&stdout(&["sweep", path.to_str().unwrap(), "--format", "json"])).unwrap();
+    let rows = json["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), 17);
+    let p = |l: f32| 1.0 / (1.0 + libm::exp(-f64::from(l)));
+    let fine = (p(-0.4) + p(2.25) + 3.0) / 8.0;
+    let middle = (p(0.85) + fine + p(-1.5) + 2.5) / 8.0;
+    let information = |p: f64| 1.0 - entropy(p);
+    let sums = [
+        64.0 * information(p(-0.4))
+            + 8.0 * information(p(0.85))
+            + information(p(-0.4))
+            + information(p(2.25))
+            + 8.0 * information(p(-1.5)),
+        8.0 * information(p(-0.4)) + information(p(0.85)) + information(fine) + information(p(-1.5)),
+        information(p(-0.4)) + information(middle),
+    ];
+    let observed = [82, 11, 2];
+    for (up, row) in rows.iter().enumerate() {
+        assert_eq!((&row["depth"], &row["k"]), (&(16 - up).into(), &(1 << up).into()));
+        assert!(row["width"].is_null() && row["height"].is_null());
+        assert_near(&row["resolution_m"], 0.05 * f64::from(1 << up));
+        if let (Some(&sum), Some(&observed)) = (sums.get(up), observed.get(up)) {
+            assert_near(&row["information_bits"], sum);
+            assert_eq!(row["observed"], observed);
+            assert_near(&row["mean_information"], sum / f64::from(observed));
+        } else {
+            assert_eq!(row["observed"], 1);
+        }
+        assert_twins(row, 3);
+    }
+    let plot = folder.path("plot.svg");
+    stdout(&["sweep", path.to_str().unwrap(), "--plot", plot.to_str().unwrap()]);
+    assert!(std::fs::read_to_string(plot).unwrap().contains("0.05"));
 }

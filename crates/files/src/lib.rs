@@ -47,9 +47,12 @@
 //! | [`gridmap`] | MRPT's grid maps |
 //! | [`pbstream`] | Cartographer's saved states |
 //! | `text` | lines of text and their fields |
+//! | `words` | words that a reader does not understand, counted |
+//! | [`octree`] | OctoMap's octrees, visited node by node |
 //! | [`trajectory`] | [`Trajectory`]: poses by their times; TUM text |
 //! | [`scans`] | [`ScanLog`](scans::ScanLog): logs of range scans, CARMEN's |
 //! | [`bags`] | bags of messages, and the maps in them |
+//! | [`particles`] | GMapping's logs of its particles |
 //! | `read` | files by the ending of their names |
 //!
 //! The feature `clap` makes [`Semantics`], [`Mode`], [`ArrayEncoding`], [`scans::NoReturn`] and [`scans::TimeField`] values
@@ -63,7 +66,9 @@ mod image;
 mod map;
 pub mod npy;
 mod npz;
+pub mod octree;
 mod options;
+pub mod particles;
 pub mod pbstream;
 mod read;
 pub mod ros;
@@ -73,15 +78,17 @@ mod source;
 mod text;
 pub mod trajectory;
 mod warning;
+mod words;
 
 pub use cells::{Cells, CellsVisitor, Contents, Counted, Counts, Readable};
 pub use error::{Error, ErrorKind, Place};
 pub use map::Map;
 pub use options::{ArrayEncoding, MAX_CELLS, MAX_COUNTED, Mode, Options, Semantics};
 pub use read::{
-    file_of, read_map, read_map_contents, read_map_contents_from, read_map_from, read_particles,
-    read_particles_from, read_scans, read_scans_from, read_submaps, read_submaps_from, read_trajectory,
-    read_trajectory_from, read_weights, read_weights_from,
+    file_of, read_filter_log, read_filter_log_from, read_map, read_map_contents, read_map_contents_from,
+    read_map_from, read_octree, read_octree_from, read_particles, read_particles_from, read_scans,
+    read_scans_from, read_submaps, read_submaps_from, read_trajectory, read_trajectory_from, read_weights,
+    read_weights_from,
 };
 pub use source::{Disk, Memory, Opened, Source};
 pub use trajectory::{Association, Trajectory, tum};

@@ -5,7 +5,9 @@ use crate::cells::{Cells, CellsVisitor, Contents};
 use crate::error::{Error, ErrorKind, Place};
 use crate::map::Map;
 use crate::npy::{self, MapsVisitor};
+use crate::octree::{self, Octree, OctreeVisitor};
 use crate::options::{MAX_COUNTED, Mode, Options};
+use crate::particles::FilterLog;
 use crate::pbstream::{self, Submap};
 use crate::ros::{self, Sink};
 use crate::scans::{ScanLog, ScanOptions};
@@ -156,6 +158,9 @@ fn read_as<T: Target>(
             return Err(Error::new(ErrorKind::Unsupported, message));
         }
         gridmap::read(open(source, path)?.input, options)?.with()
+    } else if octree::has_name(path) {
+        source.open(path)?;
+        return Err(Error::new(ErrorKind::Unsupported, "is an octree, which has no grid of cells"));
     } else {
         source.open(path)?;
         if is(&IMAGES) {
@@ -178,7 +183,8 @@ fn read_as<T: Target>(
 }
 
 /// The endings of map files, for messages.
-const ENDINGS: &str = ".yaml, .yml, .npy, .npz, .gridmap, .gridmap.gz, .mcap, .db3, .bag and .pbstream";
+const ENDINGS: &str =
+    ".yaml, .yml, .npy, .npz, .gridmap, .gridmap.gz, .ot, .bt, .mcap, .db3, .bag and .pbstream";
 
 /// The endings of images.
 const IMAGES: [&str; 12] =
@@ -199,6 +205,29 @@ pub fn read_submaps(path: &Path, options: &Options) -> Result<Vec<Submap>, Error
 pub fn read_submaps_from(source: &impl Source, path: &Path, options: &Options) -> Result<Vec<Submap>, Error> {
     let read = |file: Opened<_>| pbstream::read(file.input, file.length, options);
     source.open(path).and_then(read).map_err(|error| error.in_file(path))
+}
+
+/// Reads the octree at `path` on the disk, and has `visitor` visit its nodes: as [`read_octree_from`].
+///
+/// # Errors
+/// As [`read_octree_from`].
+pub fn read_octree(path: &Path, visitor: &mut impl OctreeVisitor) -> Result<Octree, Error> {
+    read_octree_from(&Disk, path, visitor)
+}
+
+/// Reads the octree at `path` of `source`, whatever the file's name, and has `visitor` visit its nodes.
+///
+/// # Errors
+/// An [`Error`] naming the file: as [`octree::read`].
+pub fn read_octree_from(
+    source: &impl Source,
+    path: &Path,
+    visitor: &mut impl OctreeVisitor,
+) -> Result<Octree, Error> {
+    let read = |file: Opened<_>| octree::read(file.input, visitor);
+    let mut tree = source.open(path).and_then(read).map_err(|error| error.in_file(path))?;
+    tree.files.push(path.to_owned());
+    Ok(tree)
 }
 
 /// Reads the maps of a filter's particles from the `.npy` array at `path` on the disk, and has `visitor` visit them.
@@ -266,6 +295,29 @@ pub fn read_scans_from(source: &impl Source, path: &Path, options: &ScanOptions)
         ScanLog::read_carmen(source.open(path)?.input, options)
     };
     let mut log = read().map_err(|error: Error| error.in_file(path))?;
+    log.files.push(path.to_owned());
+    Ok(log)
+}
+
+/// Reads the log of a particle filter at `path` on the disk: as [`read_filter_log_from`].
+///
+/// # Errors
+/// As [`read_filter_log_from`].
+pub fn read_filter_log(path: &Path, options: &ScanOptions) -> Result<FilterLog, Error> {
+    read_filter_log_from(&Disk, path, options)
+}
+
+/// Reads the log of a particle filter at `path` of `source`: GMapping's, whatever the file's name.
+///
+/// # Errors
+/// An [`Error`] naming the file: as [`FilterLog::read`].
+pub fn read_filter_log_from(
+    source: &impl Source,
+    path: &Path,
+    options: &ScanOptions,
+) -> Result<FilterLog, Error> {
+    let read = |file: Opened<_>| FilterLog::read(file.input, options);
+    let mut log = source.open(path).and_then(read).map_err(|error| error.in_file(path))?;
     log.files.push(path.to_owned());
     Ok(log)
 }

@@ -30,7 +30,7 @@ fn all() -> impl Iterator<Item = &'static Inequality> {
 }
 
 /// The statements that no search at points can try, and why.
-const ELSEWHERE: [(&str, &str, &str); 15] = [
+const ELSEWHERE: [(&str, &str, &str); 17] = [
     ("cell", "Theorem (no ties)", "no inequality"),
     ("evidence", "Theorem (removal)", "an equality, bit for bit: tests/library/scan/removal.rs"),
     (
@@ -41,6 +41,16 @@ const ELSEWHERE: [(&str, &str, &str); 15] = [
     ("evidence", "Proposition (rounding of the jackknife)", "in integers: tests/library/scan/jackknife.rs"),
     ("limit", "Theorem (limits)", "a limit; how near, the theorem on grids says"),
     ("limit", "Proposition (many scans)", "an order of magnitude; the next term is asserted in the chapter"),
+    (
+        "octrees",
+        "Theorem (pruned trees)",
+        "an equality, bit for bit: crates/files/tests/files/octrees.rs, of random trees",
+    ),
+    (
+        "octrees",
+        "Corollary (pruned trees by depth)",
+        "an equality, bit for bit: crates/cli/src/octree.rs, of random trees",
+    ),
     ("sums", "Theorem (exact sums)", "an equality, bit for bit: tests/library/tally.rs"),
     (
         "sums",

@@ -3,21 +3,22 @@
 use super::Status;
 use crate::failure::Failure;
 use crate::measures::{Measures, NotMeaningful, Sums};
+use crate::octree::MeasuredTree;
 use crate::output::{Files, Number, Record, Report, Value, Writing, short, table, with_notes, wrapped};
 use crate::plots::{self, HeatMap};
 use crate::progress::Progress;
 use crate::reading::{ReadingArguments, in_words};
 use crate::submaps;
 use clap::Args;
-use mean_information_files::{Map, read_map, read_map_contents};
+use mean_information_files::{Map, octree, read_map, read_map_contents};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
 /// The arguments of `meaninfo map`.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// Maps: ROS .yaml (with its image), .npy, FILE.npz:KEY, MRPT .gridmap or .gridmap.gz; or bags, .mcap, .db3, .bag or
-    /// the folder of one, whose last map is measured; or Cartographer's saved states, .pbstream.
+    /// Maps: ROS .yaml (with its image), .npy, FILE.npz:KEY, MRPT .gridmap or .gridmap.gz, OctoMap .ot or .bt; or bags,
+    /// .mcap, .db3, .bag or the folder of one, whose last map is measured; or Cartographer's saved states, .pbstream.
     #[arg(value_name = "FILE", required = true)]
     maps: Vec<PathBuf>,
     /// Draw the information of every cell of the one map given to this PNG file.
@@ -104,6 +105,9 @@ impl Arguments {
             };
             return Ok(submaps::read(path, self.submaps, &options)?.into_iter().map(measured).collect());
         }
+        if octree::has_name(path) {
+            return Ok(vec![MeasuredMap::of_tree(path, MeasuredTree::read(path, self.reading.clamp())?)]);
+        }
         let mut sums = Sums::default();
         let map = read_map_contents(path, &options, &mut sums)?;
         let measures = Measures::of_contents(&map.cells, &sums).noticing(&map.warnings);
@@ -126,6 +130,8 @@ struct MeasuredMap {
     measures: Measures,
     /// Whether its cells lie in one rectangle: submaps together do not.
     is_rectangle: bool,
+    /// Leaves and volume, if the map is an octree.
+    tree: Option<MeasuredTree>,
     warnings: Vec<String>,
     /// The files that it was read from.
     files: Vec<PathBuf>,
@@ -138,15 +144,38 @@ impl MeasuredMap {
         warnings.extend(measures.not_meaningful.map(|why| why.warning().to_owned()));
         let Map { resolution, files, .. } = map;
         let name = path.display().to_string();
-        Self { name, resolution, measures, is_rectangle: true, warnings, files, picture }
+        Self { name, resolution, measures, is_rectangle: true, tree: None, warnings, files, picture }
     }
 
-    fn record(&self) -> Record {
+    fn of_tree(path: &Path, tree: MeasuredTree) -> Self {
+        let files = vec![path.to_owned()];
+        let (warnings, resolution) = (tree.warnings.clone(), Some(tree.resolution));
+        let measures = tree.measures.clone();
+        let name = path.display().to_string();
+        Self {
+            name,
+            resolution,
+            measures,
+            is_rectangle: false,
+            tree: Some(tree),
+            warnings,
+            files,
+            picture: None,
+        }
+    }
+
+    /// Returns the record; `with_trees` if a row is an octree's, so that all have its keys.
+    fn record(&self, with_trees: bool) -> Record {
         let mut entries = vec![("map", Value::Text(self.name.clone()))];
-        entries.extend(self.measures.entries(self.resolution));
-        if !self.is_rectangle {
-            for (_, size) in entries.iter_mut().filter(|(key, _)| matches!(*key, "width" | "height")) {
-                *size = Value::Given(None);
+        if let Some(tree) = &self.tree {
+            entries.extend(tree.entries());
+        } else {
+            entries.extend(self.measures.entries(self.resolution));
+            entries.extend(with_trees.then(MeasuredTree::no_entries).into_iter().flatten());
+            if !self.is_rectangle {
+                for (_, size) in entries.iter_mut().filter(|(key, _)| matches!(*key, "width" | "height")) {
+                    *size = Value::Given(None);
+                }
             }
         }
         entries.push(("meaningful", Value::Flag(self.measures.not_meaningful.is_none())));
@@ -156,22 +185,29 @@ impl MeasuredMap {
 
     fn cells(&self) -> [String; 8] {
         let m = &self.measures;
+        let tree = self.tree.as_ref();
         let number = m.mean_information.map_or("none".to_owned(), |x| x.to_string());
-        let area = m.observed_area(self.resolution).map(|area| format!("\n{} m²", short(area)));
+        let extent = match tree {
+            Some(tree) => tree.volume().map(|volume| format!("\n{} m³", short(volume))),
+            None => m.observed_area(self.resolution).map(|area| format!("\n{} m²", short(area))),
+        };
+        let size = tree
+            .map(|tree| format!("{} leaves", tree.leaves))
+            .or_else(|| (!self.is_rectangle).then(|| "submaps".to_owned()))
+            .unwrap_or_else(|| format!("{} × {}", m.width, m.height));
         let side = self.resolution.map(|side| format!("\nof {} m", Number::given(side)));
         [
             wrapped(&self.name),
-            if self.is_rectangle { format!("{} × {}", m.width, m.height) } else { "submaps".to_owned() }
-                + &side.unwrap_or_default(),
+            size + &side.unwrap_or_default(),
             number
                 + &m.not_meaningful
                     .map(|why| format!("\nnot meaningful:\n{}", why.reason()))
                     .unwrap_or_default(),
             format!("{:.3}", m.information.widen()),
             format!("{:.3}", m.entropy.widen()),
-            format!("{}{}", m.observed(), area.unwrap_or_default()),
+            format!("{}{}", m.observed(), extent.unwrap_or_default()),
             format!("{} / {}", m.free, m.occupied),
-            m.unknown.to_string(),
+            tree.map_or_else(|| m.unknown.to_string(), |_| "–".to_owned()),
         ]
     }
 }
@@ -195,6 +231,7 @@ impl Report for MeasuredMaps {
     }
 
     fn rows(&self) -> Vec<Record> {
-        self.0.iter().map(MeasuredMap::record).collect()
+        let with_trees = self.0.iter().any(|map| map.tree.is_some());
+        self.0.iter().map(|map| map.record(with_trees)).collect()
     }
 }

@@ -2,12 +2,13 @@
 
 use super::Status;
 use crate::failure::Failure;
+use crate::octree::MeasuredDepths;
 use crate::output::{Files, Writing};
 use crate::plots::{self, Drawing, Picture, SweepPlot};
 use crate::reading::ReadingArguments;
 use crate::sweep::Sweep;
 use clap::Args;
-use mean_information_files::read_map;
+use mean_information_files::{octree, read_map};
 use std::path::PathBuf;
 
 /// The arguments of `meaninfo sweep`.
@@ -28,15 +29,21 @@ pub struct Arguments {
 impl Arguments {
     pub(super) fn run(&self) -> Result<Status, Failure> {
         let picture = self.plot.as_deref().map(Picture::by_name).transpose()?;
-        let map = read_map(&self.map, &self.reading.options())?;
-        let sweep = Sweep::of(self.map.display().to_string(), &map).map_err(|error| {
-            Failure::file(&self.map, format!("{error}; give the map a smaller resolution"))
-        })?;
+        let name = self.map.display().to_string();
         let mut files = Files::new();
+        let sweep = if octree::has_name(&self.map) {
+            files.read([self.map.clone()]);
+            Sweep::of_depths(name, MeasuredDepths::read(&self.map, self.reading.clamp())?)
+        } else {
+            let map = read_map(&self.map, &self.reading.options())?;
+            files.read(map.files.iter().cloned());
+            Sweep::of(name, &map).map_err(|error| {
+                Failure::file(&self.map, format!("{error}; give the map a smaller resolution"))
+            })?
+        };
         if let (Some(path), Some(picture)) = (&self.plot, picture) {
             files.add(path, SweepPlot::new(&sweep, &plots::title(&self.map)).draw(picture)?);
         }
-        files.read(map.files);
         self.writing.write(&sweep, files)?;
         Ok(Status::Done)
     }

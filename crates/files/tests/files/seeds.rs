@@ -2,6 +2,7 @@
 
 use crate::bag_seeds;
 use crate::support::Random;
+use crate::tree_seeds;
 use image::{DynamicImage, GrayImage, ImageFormat};
 use mean_information_test_support::formats::{GridMap, gzip, npy, pgm, raw_png, yaml, zlib};
 use mean_information_test_support::properties;
@@ -14,7 +15,7 @@ use zip::write::{SimpleFileOptions, ZipWriter};
 
 type Target = (&'static str, fn(&[u8]), fn() -> Vec<(&'static str, Vec<u8>)>);
 
-const TARGETS: [Target; 17] = [
+const TARGETS: [Target; 19] = [
     ("yaml", properties::yaml, yaml_seeds),
     ("pgm", properties::pgm, pgm_seeds),
     ("png", properties::png, png_seeds),
@@ -24,7 +25,9 @@ const TARGETS: [Target; 17] = [
     ("gridmap", properties::gridmap, gridmap_seeds),
     ("bag", properties::bag, bag_seeds::bag),
     ("pbstream", properties::pbstream, bag_seeds::pbstream),
+    ("octree", properties::octree, tree_seeds::octree),
     ("carmen_log", properties::carmen_log, carmen_log_seeds),
+    ("filter_log", properties::filter_log, tree_seeds::filter_log),
     ("trajectory", properties::trajectory, trajectory_seeds),
     ("grid", properties::grid, grid_seeds),
     ("room", properties::room, room_seeds),

@@ -3,10 +3,12 @@
 mod folder;
 mod gridmap;
 mod map;
+mod octree;
 pub mod pbstream;
 mod png;
 
 pub use folder::{Folder, shared_data};
 pub use gridmap::{GridMap, gzip};
 pub use map::{npy, pgm, yaml};
+pub use octree::{Node, Seen};
 pub use png::{raw_png, zlib};

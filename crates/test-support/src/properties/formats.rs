@@ -158,7 +158,7 @@ pub fn gridmap(bytes: &[u8]) {
 }
 
 /// Returns what was read, or nothing if it was refused, in words.
-fn kept<T>(read: Result<T, Error>) -> Option<T> {
+pub(super) fn kept<T>(read: Result<T, Error>) -> Option<T> {
     read.inspect_err(|fault| assert!(!fault.to_string().is_empty())).ok()
 }
 

@@ -7,9 +7,13 @@
 mod bags;
 mod builders;
 #[cfg(feature = "formats")]
+mod filters;
+#[cfg(feature = "formats")]
 mod formats;
 mod grid;
 mod integral;
+#[cfg(feature = "formats")]
+mod octrees;
 mod room;
 #[cfg(feature = "formats")]
 mod scans;
@@ -19,9 +23,13 @@ mod tally;
 pub use bags::{bag, pbstream};
 pub use builders::{expected, scan};
 #[cfg(feature = "formats")]
+pub use filters::filter_log;
+#[cfg(feature = "formats")]
 pub use formats::{decoded, gridmap, npy, npz, pgm, png, stack, yaml};
 pub use grid::grid;
 pub use integral::integrate;
+#[cfg(feature = "formats")]
+pub use octrees::octree;
 pub use room::room;
 #[cfg(feature = "formats")]
 pub use scans::{carmen_log, trajectory};

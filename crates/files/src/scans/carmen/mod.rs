@@ -33,5 +33,6 @@ mod records;
 mod write;
 
 pub use parameters::MAXIMUM_RANGE;
+pub(crate) use parameters::{customary_bearings, stated_maximum_range};
 pub use records::{Record, Records};
 pub use write::write;

@@ -76,7 +76,7 @@ impl Parameters {
 
     /// Returns the greatest range, in metres.
     pub(super) fn maximum_range(&self) -> f64 {
-        self.maximum_range.map_or(MAXIMUM_RANGE, without_codes)
+        stated_maximum_range(self.maximum_range)
     }
 
     /// Returns the mount of the laser, if a parameter has a part of it; the others are 0.
@@ -103,6 +103,19 @@ impl Parameters {
         let start = -degrees * (beams / 2) as f64;
         Ok(Bearings::Even { start: start.to_radians(), increment: degrees.to_radians() })
     }
+}
+
+/// Returns the bearings of so many beams by their number alone.
+///
+/// # Errors
+/// An [`Error`] if it is none of the customary ones.
+pub(crate) fn customary_bearings(beams: usize) -> Result<Bearings, Error> {
+    Parameters::default().bearings(beams)
+}
+
+/// Returns the greatest range that a log means by the one that it states, if it does; [`MAXIMUM_RANGE`] else.
+pub(crate) fn stated_maximum_range(stated: Option<f64>) -> f64 {
+    stated.map_or(MAXIMUM_RANGE, without_codes)
 }
 
 /// Refuses a number of beams that is neither that of a field of view nor, both ends counted, one more: within half a beam.

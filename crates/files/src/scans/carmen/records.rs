@@ -6,14 +6,12 @@ use crate::error::{Error, ErrorKind};
 use crate::scans::mount::Mount;
 use crate::scans::options::ScanOptions;
 use crate::scans::range_scan::RangeScan;
-use crate::text::{Line, Lines, shortened};
+use crate::text::{Line, Lines};
 use crate::trajectory::check_time;
 use crate::warning::Warning;
+use crate::words::Words;
 use mean_information::scan::Pose;
 use std::io::BufRead;
-
-/// The most words that lines which are not understood are counted by.
-const MAX_WORDS: usize = 8;
 
 /// A record of a CARMEN log.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,8 +56,7 @@ pub struct Records<R> {
     parameters: Parameters,
     mount: Mount,
     last: Option<f64>,
-    words: Vec<(String, u64)>,
-    other_lines: u64,
+    words: Words,
     same_time: u64,
     cut: Option<u64>,
     ended: bool,
@@ -83,8 +80,7 @@ impl<R: BufRead> Records<R> {
             parameters: Parameters::default(),
             mount: Mount::Unknown,
             last: None,
-            words: Vec::new(),
-            other_lines: 0,
+            words: Words::default(),
             same_time: 0,
             cut: None,
             ended: false,
@@ -94,10 +90,7 @@ impl<R: BufRead> Records<R> {
     /// Returns the signs, in the lines read so far, that the log means less than it seems.
     pub fn warnings(&self) -> Vec<Warning> {
         let mut warnings = Vec::new();
-        let lines = self.other_lines + self.words.iter().map(|(_, count)| count).sum::<u64>();
-        if lines > 0 {
-            warnings.push(Warning::LinesNotUnderstood { lines, words: self.words.clone() });
-        }
+        warnings.extend(self.words.warning());
         if self.same_time > 0 {
             warnings.push(Warning::ScansAtOneTime { count: self.same_time });
         }
@@ -125,8 +118,7 @@ impl<R: BufRead> Records<R> {
                     return Ok(None);
                 }
                 Some(Kind::NotUnderstood) => {
-                    let word = shortened(line.fields().word().unwrap_or_default());
-                    count(&mut self.words, &mut self.other_lines, word);
+                    self.words.add(line.fields().word().unwrap_or_default());
                     continue;
                 }
                 Some(Kind::Nothing) => continue,
@@ -183,15 +175,4 @@ fn read(line: Line<'_>, parameters: &mut Parameters, options: &ScanOptions) -> R
         word if word.starts_with(b"#") || word.starts_with(b"RAWLASER") => Kind::Nothing,
         _ => Kind::NotUnderstood,
     })
-}
-
-/// Counts a line by its first word, or with the others once there are many words.
-fn count(words: &mut Vec<(String, u64)>, others: &mut u64, word: String) {
-    if let Some((_, lines)) = words.iter_mut().find(|(own, _)| *own == word) {
-        *lines += 1;
-    } else if words.len() < MAX_WORDS {
-        words.push((word, 1));
-    } else {
-        *others += 1;
-    }
 }

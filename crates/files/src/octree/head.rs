@@ -1,0 +1,99 @@
+//! The head of an octree: lines of text up to `data`.
+
+use crate::error::{Error, ErrorKind, Place};
+use crate::text::{Fields, Line, Lines};
+use std::io::BufRead;
+
+/// The first lines of the two kinds of files.
+const FULL: &str = "# Octomap OcTree file";
+const BINARY: &str = "# Octomap OcTree binary file";
+
+/// What a head says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Head {
+    /// Nodes are free or occupied only: a `.bt` file.
+    pub(super) binary: bool,
+    /// Nodes have a colour.
+    pub(super) coloured: bool,
+    /// The number of nodes.
+    pub(super) nodes: u64,
+    /// The side of a finest cell, in metres.
+    pub(super) resolution: f64,
+    /// The number of bytes of the head.
+    pub(super) bytes: u64,
+}
+
+impl Head {
+    /// Reads a head.
+    ///
+    /// # Errors
+    /// An [`Error`] with the line if it is not OctoMap's, of another kind of tree, lacks a key, or ends before `data`.
+    pub(super) fn read(input: &mut impl BufRead) -> Result<Self, Error> {
+        let mut lines = Lines::new(input);
+        let Some(first) = lines.next()? else {
+            let refused = Error::new(ErrorKind::CutShort, "the file is empty");
+            return Err(refused.allowing("; allowed is ", "an octree of OctoMap"));
+        };
+        let binary = is_binary(first)?;
+        let mut bytes = first.bytes.len() as u64;
+        let (mut coloured, mut nodes, mut resolution) = (None, None, None);
+        while let Some(line) = lines.next()? {
+            bytes += line.bytes.len() as u64;
+            let mut fields = line.fields();
+            match fields.word() {
+                Some(b"id") => coloured = Some(is_coloured(line, fields)?),
+                Some(b"size") => nodes = Some(fields.count("size")?),
+                Some(b"res") => resolution = Some(side(fields)?),
+                Some(b"data") => {
+                    let missing = |key| {
+                        Error::new(ErrorKind::Format, format!("the head lacks {key}")).at(Place::Key(key))
+                    };
+                    return Ok(Self {
+                        binary,
+                        coloured: coloured.ok_or_else(|| missing("id"))?,
+                        nodes: nodes.ok_or_else(|| missing("size"))?,
+                        resolution: resolution.ok_or_else(|| missing("res"))?,
+                        bytes,
+                    });
+                }
+                // Comments; and keys that it does not know OctoMap passes over too.
+                _ => {}
+            }
+        }
+        Err(Error::new(ErrorKind::CutShort, "the file ends before the line `data`").at(Place::Byte(bytes)))
+    }
+}
+
+/// Tells the kind of file by its first line.
+fn is_binary(first: Line<'_>) -> Result<bool, Error> {
+    let begins = |with: &str| first.bytes.starts_with(with.as_bytes());
+    if begins(FULL) || begins(BINARY) {
+        return Ok(begins(BINARY));
+    }
+    let refused =
+        Error::new(ErrorKind::Format, "is no octree of OctoMap by its first line").at(Place::Line(1));
+    Err(refused.allowing("; allowed are ", format!("`{FULL}` and `{BINARY}`")))
+}
+
+/// Tells whether the nodes of the kind of tree have colours.
+fn is_coloured(line: Line<'_>, mut fields: Fields<'_>) -> Result<bool, Error> {
+    match fields.word() {
+        Some(b"OcTree") => Ok(false),
+        Some(b"ColorOcTree") => Ok(true),
+        word => {
+            let id = String::from_utf8_lossy(word.unwrap_or_default()).chars().take(40).collect::<String>();
+            let refused = line.refuse(ErrorKind::Unsupported, &format!("is of a tree `{id}`"));
+            Err(refused.with_value(id).allowing(", allowed are ", "OcTree and ColorOcTree"))
+        }
+    }
+}
+
+/// Takes the side of a cell, in metres: that of the whole cube must have a volume that is a number, and a cell too.
+fn side(mut fields: Fields<'_>) -> Result<f64, Error> {
+    let side = fields.number("res")?;
+    let whole = side * 65536.0;
+    if side > 0.0 && (side * side * side).is_normal() && (whole * whole * whole).is_finite() {
+        return Ok(side);
+    }
+    Err(fields.out_of_range("res", side, "a positive number of metres, within the range of volumes"))
+}

@@ -47,7 +47,7 @@ pub struct Place {
     pub mutants: Vec<Mutant>,
 }
 
-/// What stands there; ranges are bytes of the source.
+/// The code at a place; ranges are bytes of the source.
 #[derive(Debug)]
 pub enum Kind {
     /// The start of a function's body.

@@ -24,7 +24,7 @@ pub struct Test {
     pub reached: HashSet<u32>,
 }
 
-/// What a mutant's tests said.
+/// The verdict of a mutant's tests.
 pub enum Verdict {
     /// The test that failed.
     Caught(String),
@@ -110,7 +110,7 @@ pub fn judge(root: &Path, tests: &[Test], mutant: u32, place: u32) -> Verdict {
     Verdict::Missed
 }
 
-/// Whether a suite fails in a folder.
+/// Returns whether a suite fails in a folder.
 pub fn fails(root: &Path, suite: &Path) -> bool {
     let mut command = Command::new(suite);
     command.current_dir(root).process_group(0);

@@ -45,6 +45,7 @@ chapters! {
     operations;
     porting;
     files;
+    tally_format;
     paper;
     architecture;
 }

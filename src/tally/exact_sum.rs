@@ -5,7 +5,6 @@ use crate::error::Error;
 use crate::real::Real;
 use crate::rounded::beyond_float::Fixed;
 use crate::rounded::{limbs, round_limbs, shift_right};
-#[cfg(feature = "serde")]
 use core::cmp::Ordering;
 
 /// The number of 64-bit limbs. The lowest bit is worth `2^-1074`, so the sum can reach `2^(64 * 18 - 1074) = 2^78`.
@@ -138,16 +137,12 @@ impl ExactSum {
         assert!(!carry, "an exact sum stays below 2^78");
     }
 
-    /// Compares the sum with the integer `n`.
-    #[cfg(feature = "serde")]
-    pub(super) fn compare(&self, n: u64) -> Ordering {
-        let mut bound = Self::new();
-        bound.add_many(1.0_f64, n);
-        limbs::compare(&self.limbs, &bound.limbs)
+    /// Compares the sum with another.
+    pub(super) fn compare_sum(&self, other: &Self) -> Ordering {
+        limbs::compare(&self.limbs, &other.limbs)
     }
 
     /// Returns whether the sum is a multiple of `2^exponent`.
-    #[cfg(feature = "serde")]
     pub(super) fn is_multiple_of_power(&self, exponent: i32) -> bool {
         let bits = (exponent - LOWEST) as usize;
         let below = |(k, limb): (usize, &u64)| match bits.saturating_sub(64 * k) {

@@ -6,6 +6,8 @@
 
 #[cfg(feature = "std")]
 mod blocks;
+mod bytes;
+mod checked;
 mod collection;
 mod exact_sum;
 mod information_sum;
@@ -14,6 +16,7 @@ mod map_tally;
 mod portable;
 mod removal;
 
+pub use bytes::{TALLY_BYTES, format_of_bytes};
 pub use exact_sum::ExactSum;
 pub use information_sum::InformationSum;
 pub use map_tally::Tally;

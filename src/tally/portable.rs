@@ -1,12 +1,12 @@
 //! Tallies as text, so that they can travel between machines and be merged there (feature `serde`).
 //!
 //! The sums are written as hexadecimal integers in units of `2^-1074`: exact, and readable in any language with big
-//! integers. Reading refuses counts that overflow, sums above 1 bit per cell, an entropy below that of the unknown
-//! cells, and sums that are no multiple of the smallest number of the format.
+//! integers. Reading refuses what no cells have, as reading their [bytes](Tally::from_bytes) does.
 
+use super::checked::{check_format, check_information, total};
 use super::exact_sum::ExactSum;
 use super::information_sum::InformationSum;
-use super::map_tally::{TOO_MANY, Tally};
+use super::map_tally::Tally;
 use crate::real::Real;
 use alloc::string::{String, ToString};
 use core::fmt::Write;
@@ -101,19 +101,7 @@ impl<'de, T: Real> Deserialize<'de> for Tally<T> {
         let PortableTally { format, entropy, information, unknown, free, occupied } =
             PortableTally::deserialize(deserializer)?;
         require_format::<T, _>(&format)?;
-        let observed = total(free, occupied)?;
-        let cells = total(observed, unknown)?;
-        // A cell has at most 1 bit of either; an unknown one has an entropy of 1 bit (Eq. 1).
-        if information.compare(observed).is_gt()
-            || entropy.compare(cells).is_gt()
-            || entropy.compare(unknown).is_lt()
-        {
-            return Err(D::Error::custom(
-                "the sums of a tally are at most 1 bit per cell, and an unknown cell has an entropy of 1 bit",
-            ));
-        }
-        require_sums_of::<T, _>(&[&entropy, &information])?;
-        Ok(Self { entropy, information, unknown, free, occupied, format: PhantomData })
+        Self::from_parts([entropy, information], [unknown, free, occupied]).map_err(D::Error::custom)
     }
 }
 
@@ -122,11 +110,10 @@ impl<'de, T: Real> Deserialize<'de> for InformationSum<T> {
         let PortableInformationSum { format, information, unknown, observed } =
             PortableInformationSum::deserialize(deserializer)?;
         require_format::<T, _>(&format)?;
-        total(observed, unknown)?;
-        if information.compare(observed).is_gt() {
-            return Err(D::Error::custom("the information is at most 1 bit per observed cell"));
-        }
-        require_sums_of::<T, _>(&[&information])?;
+        let refused = |error: crate::error::Error| D::Error::custom(error);
+        total(observed, unknown).map_err(refused)?;
+        check_information(&information, observed).map_err(refused)?;
+        check_format::<T>("information of the tally", &information).map_err(refused)?;
         Ok(Self { sum: information, unknown, observed, format: PhantomData })
     }
 }
@@ -137,19 +124,5 @@ fn require_format<T: Real, E: Error>(format: &str) -> Result<(), E> {
         Ok(())
     } else {
         Err(E::custom(format_args!("a tally of {format} cells, wanted is {}", T::FORMAT)))
-    }
-}
-
-/// Adds two counts, or refuses them if the sum overflows.
-fn total<E: Error>(cells: u64, others: u64) -> Result<u64, E> {
-    cells.checked_add(others).ok_or_else(|| E::custom(TOO_MANY))
-}
-
-/// Refuses a sum that is no multiple of the smallest number of `T`, since its terms are.
-fn require_sums_of<T: Real, E: Error>(sums: &[&ExactSum]) -> Result<(), E> {
-    if sums.iter().all(|sum| sum.is_multiple_of_power(T::MIN_EXPONENT)) {
-        Ok(())
-    } else {
-        Err(E::custom(format_args!("the sums are no sums of numbers of {}", T::FORMAT)))
     }
 }

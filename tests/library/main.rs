@@ -19,5 +19,6 @@ mod room;
 mod scan;
 mod sensor;
 mod tally;
+mod tally_bytes;
 #[cfg(feature = "rayon")]
 mod threads;

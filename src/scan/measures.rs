@@ -118,6 +118,25 @@ impl<T: Real> ScanMap<T> {
         self.grid(occupancy_from_fixed_log_odds)
     }
 
+    /// Returns the place in the world of the map that [`Self::log_odds`] and [`Self::probabilities`] return: the side of a cell,
+    /// and the lower left corner of the rectangle that was seen, each coordinate rounded once.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if the corner of the map is not finite.
+    ///
+    /// ```
+    /// use mean_information::scan::{Beam, Pose, Scan, ScanMap};
+    /// use mean_information::sensor::SteppedSensor;
+    /// let scan = Scan::new(Pose::new(-0.37, 0.62, 0.0)?, 2.0, vec![Beam { bearing: 0.0, range: Some(0.5) }])?;
+    /// let mut map = ScanMap::<f64>::new(0.25)?;
+    /// map.insert(&scan, |range| SteppedSensor::new(range, 0.25, 0.25, 0.875))?;
+    /// assert_eq!(map.geometry()?.origin(), [-0.5, 0.5]);
+    /// # Ok::<(), mean_information::Error>(())
+    /// ```
+    pub fn geometry(&self) -> Result<Geometry, Error> {
+        self.place().map(|(_, geometry)| geometry)
+    }
+
     /// Encodes the sums of all cells.
     fn grid<E: Encoding>(&self, stored: impl Fn(i128) -> E::Stored) -> Result<Grid<E>, Error> {
         let ([width, height], geometry) = self.place()?;

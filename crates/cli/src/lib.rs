@@ -23,9 +23,11 @@
 //! | [`series`] | the maps of a bag, measured one after the other |
 //! | [`convergence`] | grids of a circular room against their limit |
 //! | [`plots`] | pictures of maps, curves, sweeps, bags and convergence |
+//! | [`limits`] | limits with their ends, by whichever method |
 //! | [`paper`] | the figures and the claims of the report |
 //! | [`trajectory`] | trajectories compared by the maps that they make of the same scans |
 //! | [`commands`] | the arguments, and what they ask for |
+//! | `run` | the command as a function |
 
 pub mod check;
 mod clamp;
@@ -33,6 +35,7 @@ pub mod commands;
 pub mod convergence;
 mod failure;
 pub mod hex_float;
+pub mod limits;
 pub mod measures;
 mod metres;
 pub mod octree;
@@ -44,6 +47,7 @@ pub mod port;
 mod progress;
 pub mod protocol;
 pub mod reading;
+mod run;
 pub mod series;
 pub mod simulation;
 mod submaps;
@@ -52,3 +56,4 @@ pub mod trajectory;
 
 pub use clamp::Clamp;
 pub use failure::Failure;
+pub use run::run;

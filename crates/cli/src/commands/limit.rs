@@ -2,10 +2,10 @@
 
 use super::Status;
 use crate::failure::Failure;
+use crate::limits::{CONVERGED, Computed};
 use crate::metres::positive;
 use crate::output::{Files, Number, Record, Report, Value, Writing, table};
 use clap::{Args, ValueEnum};
-use mean_information::estimate::{self, Enclosure, Estimate};
 use mean_information::limit::{self, RadialModel, RepeatedScans};
 use mean_information::quadrature::adaptive::GaussKronrod;
 use mean_information::quadrature::rigorous::Rigorous;
@@ -158,54 +158,6 @@ impl From<Weight> for limit::Weight {
             Weight::Radial => Self::Radial,
             Weight::Area => Self::Area,
         }
-    }
-}
-
-/// A limit as any of the methods gives it.
-struct Computed<T> {
-    value: T,
-    lower: T,
-    upper: T,
-    status: &'static str,
-    evaluations: u64,
-}
-
-const CONVERGED: &str = "converged";
-
-impl<T: Real> Computed<T> {
-    /// The closed form is wrong by less than 1 ulp (proved), so its neighbours enclose the limit.
-    fn closed_form(value: T) -> Self {
-        let (m, e) = value.parts();
-        let (lower, upper) = (T::from_parts(m - 1, e), T::from_parts(m + 1, e).min(T::one()));
-        Self { value, lower, upper, status: CONVERGED, evaluations: 0 }
-    }
-}
-
-impl<T: Real> From<Estimate<T>> for Computed<T> {
-    fn from(estimate: Estimate<T>) -> Self {
-        let Estimate { value, error, status, evaluations } = estimate;
-        let (lower, upper) = ((value - error).max(T::zero()), (value + error).min(T::one()));
-        Self { value, lower, upper, status: name(status), evaluations }
-    }
-}
-
-impl<T: Real> From<Enclosure<T>> for Computed<T> {
-    fn from(enclosure: Enclosure<T>) -> Self {
-        let Enclosure { lower, upper, status, evaluations } = enclosure;
-        Self { value: lower + (upper - lower) * T::HALF, lower, upper, status: name(status), evaluations }
-    }
-}
-
-/// Returns the name of an integral's status.
-fn name<T: Real>(status: estimate::Status<T>) -> &'static str {
-    use estimate::Status as Integral;
-    match status {
-        Integral::Converged => CONVERGED,
-        Integral::EvaluationLimit => "evaluation-limit",
-        Integral::RoundOff => "round-off",
-        Integral::Unresolved { .. } => "unresolved",
-        Integral::NotFinite { .. } => "not-finite",
-        _ => "not-converged",
     }
 }
 

@@ -14,7 +14,7 @@ mod trajectory;
 
 use crate::failure::Failure;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
-use std::process::ExitCode;
+use std::ffi::OsString;
 
 /// The mean information of occupancy maps (Blanco's measure): how certain a map is of the cells it has observed, in
 /// bits per observed cell, from 0 to 1.
@@ -27,18 +27,20 @@ pub struct Arguments {
 }
 
 impl Arguments {
-    /// Parses the command line.
+    /// Parses a command line, whose first argument is the name of the program.
     ///
     /// # Errors
     /// What is wrong with them; also a request for help or for the version.
-    pub fn of_command_line() -> Result<Self, clap::Error> {
+    pub fn of<A: Into<OsString> + Clone>(
+        arguments: impl IntoIterator<Item = A>,
+    ) -> Result<Self, clap::Error> {
         // A negative number is the value of its option, whose own message says what is allowed.
         let option = |arg: clap::Arg| {
             let takes_value = arg.get_action().takes_values() && !arg.is_positional();
             arg.allow_negative_numbers(takes_value)
         };
         let command = Self::command().mut_subcommands(|command| command.mut_args(option));
-        Self::from_arg_matches(&command.try_get_matches()?)
+        Self::from_arg_matches(&command.try_get_matches_from(arguments)?)
     }
 }
 
@@ -103,11 +105,12 @@ pub enum Status {
     CheckFailed,
 }
 
-impl From<Status> for ExitCode {
-    fn from(status: Status) -> Self {
-        match status {
-            Status::Done => Self::SUCCESS,
-            Status::CheckFailed => Self::from(1),
+impl Status {
+    /// Returns the exit status.
+    pub(crate) fn number(self) -> u8 {
+        match self {
+            Self::Done => 0,
+            Self::CheckFailed => 1,
         }
     }
 }

@@ -1,0 +1,32 @@
+//! The command as a function: for the program `meaninfo`, and for packages in other languages that have it within.
+
+use crate::commands::Arguments;
+use crate::failure::Failure;
+use std::ffi::OsString;
+use std::io::{self, Write};
+
+/// Runs the command with these arguments, the first of which is the name of the program. Returns the exit status: 0 done, 1 done
+/// and a check did not hold, 2 refused, with a line on standard error.
+///
+/// ```
+/// assert_eq!(mean_information_cli::run(["meaninfo", "limit", "--range", "2", "--sigma", "nonsense"]), 2);
+/// ```
+pub fn run<A: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = A>) -> u8 {
+    let done = match Arguments::of(arguments) {
+        Ok(arguments) => arguments.command.run(),
+        Err(error) if error.use_stderr() => Err(Failure::from(error)),
+        // --help and --version; a reader who closes the pipe has seen enough.
+        Err(help) => {
+            let _ = help.print();
+            return 0;
+        }
+    };
+    match done {
+        Ok(status) => status.number(),
+        Err(failure) => {
+            // Where stderr cannot be written, the exit status still says it; `eprintln` would panic.
+            let _ = writeln!(io::stderr(), "meaninfo: {failure}");
+            2
+        }
+    }
+}

@@ -45,6 +45,7 @@
 //! |---|---|---|
 //! | [`elementary`] | exponential, logarithm and square root, correctly rounded | |
 //! | [`cell`] | entropy and information of one cell, correctly rounded | 1, 3 |
+//! | [`elementwise`] | the same from a slice into a slice | 1, 3 |
 //! | [`tally`] | the exact, mergeable sums over a map | 2, 4 |
 //! | [`map`] | grids, cell encodings, pooling | |
 //! | [`sensor`] | inverse sensor models: the occupancy that a range reading gives to a point | 5 |
@@ -100,6 +101,7 @@ mod approx;
 pub mod book;
 pub mod cell;
 pub mod elementary;
+pub mod elementwise;
 mod error;
 pub mod estimate;
 pub mod expected;

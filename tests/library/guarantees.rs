@@ -6,7 +6,7 @@ use mean_information::room::{CartesianRoom, PolarRoom};
 use mean_information::scalar::Scalar;
 use mean_information::sensor::{GaussianSensor, InverseSensorModel};
 use mean_information::{
-    ExactSum, InformationSum, Tally, cell, elementary, expected, fusion, limit, map, scan,
+    ExactSum, InformationSum, Tally, cell, elementary, elementwise, expected, fusion, limit, map, scan,
 };
 use std::path::Path;
 
@@ -47,6 +47,11 @@ pub(crate) fn guarantees() -> Vec<Guarantee> {
         cell::information_from_log_odds::<f64> => "cell::information_from_log_odds", 0.5, Proved;
         cell::occupancy_from_log_odds::<f64> => "cell::occupancy_from_log_odds", 0.5, Proved;
         cell::log_odds_from_occupancy::<f64> => "cell::log_odds_from_occupancy", 0.5, Proved;
+        elementwise::entropy::<f64> => "elementwise::entropy", 0.5, Proved;
+        elementwise::information::<f64> => "elementwise::information", 0.5, Proved;
+        elementwise::entropy_from_log_odds::<f64> => "elementwise::entropy_from_log_odds", 0.5, Proved;
+        elementwise::information_from_log_odds::<f64> => "elementwise::information_from_log_odds", 0.5, Proved;
+        elementwise::occupancy_from_log_odds::<f64> => "elementwise::occupancy_from_log_odds", 0.5, Proved;
         ExactSum::value::<f64> => "ExactSum::value", 0.5, Proved;
         ExactSum::mean::<f64> => "ExactSum::mean", 0.5, Proved;
         Tally::<f64>::entropy => "Tally::entropy", 1.5, Proved;

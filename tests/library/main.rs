@@ -6,6 +6,7 @@ mod cell;
 mod closed_form;
 mod common;
 mod elementary;
+mod elementwise;
 mod expected;
 mod fusion;
 mod guarantees;

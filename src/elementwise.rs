@@ -1,0 +1,118 @@
+//! Functions of many cells at once: from a slice into a slice, each element correctly rounded.
+//!
+//! An element has the bits of the function of the same name in [`cell`], whatever the processor: these are the loops
+//! that array languages call.
+
+use crate::cell;
+use crate::real::Real;
+
+/// Calls `function` for each argument and stores its results.
+///
+/// # Panics
+/// If the slices differ in length.
+fn each<T: Real>(arguments: &[T], results: &mut [T], function: fn(T) -> T) {
+    assert_lengths(arguments, results);
+    for (result, &argument) in results.iter_mut().zip(arguments) {
+        *result = function(argument);
+    }
+}
+
+/// Asserts that there is a place for each result.
+fn assert_lengths<T>(arguments: &[T], results: &[T]) {
+    let (given, places) = (arguments.len(), results.len());
+    assert!(given == places, "{given} arguments need as many places for results, not {places}");
+}
+
+/// Computes the entropy `H(p) = -p log2 p - (1-p) log2 (1-p)` of each occupancy, in bits (Eq. 1 in base 2).
+///
+/// Correctly rounded (proved, [`rounding`](crate::book::rounding)): bit for bit [`cell::entropy`] of each.
+///
+/// Special cases: those of [`cell::entropy`], NaN outside `[0, 1]` among them.
+///
+/// # Panics
+/// If the slices differ in length.
+///
+/// ```
+/// let mut bits = [0.0; 3];
+/// mean_information::elementwise::entropy(&[0.25_f64, 0.5, 1.5], &mut bits);
+/// assert_eq!(bits[..2], [0.8112781244591328, 1.0]);
+/// assert!(bits[2].is_nan());
+/// ```
+pub fn entropy<T: Real>(occupancies: &[T], results: &mut [T]) {
+    each(occupancies, results, cell::entropy);
+}
+
+/// Computes the information `I(p) = 1 - H(p)` of each occupancy, in bits (Eq. 3).
+///
+/// Correctly rounded (proved, [`rounding`](crate::book::rounding)): bit for bit [`cell::information`] of each.
+///
+/// Special cases: those of [`cell::information`], NaN outside `[0, 1]` among them.
+///
+/// # Panics
+/// If the slices differ in length.
+///
+/// ```
+/// let mut bits = [0.0; 3];
+/// mean_information::elementwise::information(&[0.25_f64, 0.5, 1.0], &mut bits);
+/// assert_eq!(bits, [0.18872187554086714, 0.0, 1.0]);
+/// ```
+pub fn information<T: Real>(occupancies: &[T], results: &mut [T]) {
+    each(occupancies, results, cell::information);
+}
+
+/// Computes the entropy of each cell of log-odds `l` (nats), in bits (Eq. 1).
+///
+/// Correctly rounded, under the condition on ties stated in [`rounding`](crate::book::rounding): bit for bit
+/// [`cell::entropy_from_log_odds`] of each.
+///
+/// Special cases: 1 at `l = 0`, 0 at `l = ±inf`, NaN at NaN.
+///
+/// # Panics
+/// If the slices differ in length.
+///
+/// ```
+/// let mut bits = [0.0; 3];
+/// mean_information::elementwise::entropy_from_log_odds(&[2.0_f64, 0.0, f64::INFINITY], &mut bits);
+/// assert_eq!(bits, [0.5270653410031616, 1.0, 0.0]);
+/// ```
+pub fn entropy_from_log_odds<T: Real>(log_odds: &[T], results: &mut [T]) {
+    each(log_odds, results, cell::entropy_from_log_odds);
+}
+
+/// Computes the information of each cell of log-odds `l` (nats), in bits (Eq. 3).
+///
+/// Correctly rounded, under the condition on ties stated in [`rounding`](crate::book::rounding): bit for bit
+/// [`cell::information_from_log_odds`] of each.
+///
+/// Special cases: 0 at `l = 0`, 1 at `l = ±inf`, NaN at NaN.
+///
+/// # Panics
+/// If the slices differ in length.
+///
+/// ```
+/// let mut bits = [0.0; 3];
+/// mean_information::elementwise::information_from_log_odds(&[2.0_f64, 0.0, -f64::INFINITY], &mut bits);
+/// assert_eq!(bits, [0.4729346589968384, 0.0, 1.0]);
+/// ```
+pub fn information_from_log_odds<T: Real>(log_odds: &[T], results: &mut [T]) {
+    each(log_odds, results, cell::information_from_log_odds);
+}
+
+/// Computes the occupancy `p = 1 / (1 + e^-l)` of each cell of log-odds `l` (nats).
+///
+/// Correctly rounded (proved, [`rounding`](crate::book::rounding)): bit for bit [`cell::occupancy_from_log_odds`] of
+/// each.
+///
+/// Special cases: 1/2 at `l = 0`, 0 and 1 at `l = -inf` and `+inf`, NaN at NaN.
+///
+/// # Panics
+/// If the slices differ in length.
+///
+/// ```
+/// let mut occupancies = [0.0; 3];
+/// mean_information::elementwise::occupancy_from_log_odds(&[-2.0_f64, 0.0, f64::INFINITY], &mut occupancies);
+/// assert_eq!(occupancies, [0.11920292202211756, 0.5, 1.0]);
+/// ```
+pub fn occupancy_from_log_odds<T: Real>(log_odds: &[T], results: &mut [T]) {
+    each(log_odds, results, cell::occupancy_from_log_odds);
+}

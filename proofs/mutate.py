@@ -18,7 +18,8 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-FIXED, APPROXIMATE, GAUSSIAN = (f"src/rounded/{name}.rs" for name in ("fixed", "approximate", "gaussian"))
+FIXED, APPROXIMATE, GAUSSIAN, LOG_ODDS = (
+    f"src/rounded/{name}.rs" for name in ("fixed", "approximate", "gaussian", "log_odds"))
 
 
 def error_constant(name, exponent, smaller, *where):
@@ -66,10 +67,10 @@ TWO_STEPS = [script for script in LANES if "fused" not in script]
 MUTATIONS = [
     ("LOG_ERROR halved, in both", "log2.gappa",
      error_constant("LOG_ERROR", 43, 42, "log2", "minus_log2", "with_two_logarithms", "with_small_occupancy",
-                    "with_large_odds", "ln_by_log2")),
+                    "with_large_odds", "ln_by_log2", "log_odds_two_logarithms", "log_odds_small_occupancy")),
     ("LOG_1P_OVER_ERROR halved, in both", "log2_1p_over.gappa",
      error_constant("LOG_1P_OVER_ERROR", 42, 41, "log2_1p_over", "with_small_occupancy", "with_small_odds",
-                    "ln_near_one")),
+                    "ln_near_one", "log_odds_near_unknown")),
     ("EXP_ERROR halved, in both", "exp2_neg.gappa", error_constant("EXP_ERROR", 48, 47, "exp2_neg", "occupancy", "exp")),
     ("SERIES_ERROR halved, in both", "information_series.gappa",
      error_constant("SERIES_ERROR", 55, 54, "information_series", "information_series_log_odds", "from_series")
@@ -144,6 +145,21 @@ MUTATIONS = [
           ("floor(log2_slope * 1b15 * LN2", "floor(log2_slope * 1b14 * LN2"))),
     ("ln_by_log2: the error LOG_ERROR >> 5, in both", "ln_by_log2.gappa",
      both(APPROXIMATE, "ln_by_log2", ("LOG_ERROR >> 4", "LOG_ERROR >> 5"), ("floor(LOG_ERROR * 1b-4)", "floor(LOG_ERROR * 1b-5)"))),
+    ("log_odds near unknown: the sum of slopes << 13, in both", "log_odds_near_unknown.gappa",
+     both(LOG_ODDS, "log_odds_near_unknown", ("mul_high((above + below) << 14, LN2)", "mul_high((above + below) << 13, LN2)"),
+          ("floor((above + below) * 1b14 * LN2", "floor((above + below) * 1b13 * LN2"))),
+    ("log_odds near unknown: the error LOG_1P_OVER_ERROR << 13, in both", "log_odds_near_unknown.gappa",
+     both(LOG_ODDS, "log_odds_near_unknown", ("LOG_1P_OVER_ERROR << 14", "LOG_1P_OVER_ERROR << 13"),
+          ("LOG_1P_OVER_ERROR * 1b14", "LOG_1P_OVER_ERROR * 1b13"))),
+    ("log_odds by two logarithms: the error LOG_ERROR, in both", "log_odds_two_logarithms.gappa",
+     [(file, "2 * LOG_ERROR", "1 * LOG_ERROR") for file in (LOG_ODDS, "proofs/log_odds_two_logarithms.gappa")]),
+    ("log_odds of a small occupancy: twice q times its slope, in both", "log_odds_small_occupancy.gappa",
+     both(LOG_ODDS, "log_odds_small_occupancy", ("u128::from(m) << 75, slope), n - 53);", "u128::from(m) << 75, slope), n - 54);"),
+          ("two_to_minus_n * 1b53", "two_to_minus_n * 1b54"))),
+    ("log_odds of a small occupancy: the error LOG_ERROR >> 8, in both", "log_odds_small_occupancy.gappa",
+     both(LOG_ODDS, "log_odds_small_occupancy", ("LOG_ERROR >> 6", "LOG_ERROR >> 8"), ("floor(LOG_ERROR * 1b-6)", "floor(LOG_ERROR * 1b-8)"))),
+    ("log_odds.rs alone: the logarithms added", "source",
+     [(LOG_ODDS, "(minus_log2_q - minus_log2_rest) as u128", "(minus_log2_q + minus_log2_rest) as u128")]),
     ("cut: small << 73, in both", "half_square.gappa",
      both(GAUSSIAN, "half_square", ("u128::from(small) << 74", "u128::from(small) << 73"),
           ("narrow = floor(small * 1b74", "narrow = floor(small * 1b73"))),

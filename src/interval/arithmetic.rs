@@ -83,6 +83,7 @@ impl<T: Endpoint> Interval<T> {
     /// # Ok::<(), mean_information::Error>(())
     /// ```
     pub fn width(&self) -> T {
+        // Negation is exact, so this is one rounding.
         self.upper.add(-self.lower, Up)
     }
 
@@ -93,12 +94,14 @@ impl<T: Endpoint> Interval<T> {
 
     /// Returns the smallest interval that contains both.
     pub(crate) fn hull(self, other: Self) -> Self {
+        // The empty interval has inf below -inf: it adds nothing.
         Self { lower: min(self.lower, other.lower), upper: max(self.upper, other.upper) }
     }
 
     /// Returns the numbers that both intervals contain.
     pub(crate) fn intersection(self, other: Self) -> Self {
         let common = Self { lower: max(self.lower, other.lower), upper: min(self.upper, other.upper) };
+        // One form of the empty interval, which == knows.
         if common.is_empty() { Self::EMPTY } else { common }
     }
 
@@ -125,6 +128,7 @@ impl<T: Endpoint> Neg for Interval<T> {
     type Output = Self;
     #[inline]
     fn neg(self) -> Self {
+        // Exact: the ends change places.
         Self { lower: -self.upper, upper: -self.lower }
     }
 }
@@ -145,6 +149,7 @@ impl<T: Endpoint> Sub for Interval<T> {
     type Output = Self;
     #[inline]
     fn sub(self, other: Self) -> Self {
+        // Negation rounds nothing: the ends of the difference are those of a sum.
         self + -other
     }
 }
@@ -156,6 +161,7 @@ impl<T: Endpoint> Mul for Interval<T> {
         if self.is_empty() || other.is_empty() {
             return Self::EMPTY;
         }
+        // Opposites until neither upper end is negative: exact, and four cases are left.
         if self.upper < T::ZERO {
             return -(-self * other);
         }

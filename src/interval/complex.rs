@@ -63,6 +63,7 @@ impl Complex {
 
     /// Encloses `|z|^2`.
     fn square_magnitude(self) -> RealInterval {
+        // Squares, not products: neither is below 0.
         self.re.square() + self.im.square()
     }
 
@@ -81,6 +82,7 @@ impl Complex {
 
     /// Returns the rectangle, or its opposite if that lies to the right.
     fn to_the_right(self) -> Self {
+        // For even functions: the half plane where e^-l is small.
         if self.re.upper() < 0.0 { -self } else { self }
     }
 }
@@ -99,6 +101,7 @@ fn odd(x: RealInterval, bounds: impl Fn(f64) -> (f64, f64)) -> RealInterval {
         let (lower, upper) = bounds(x.abs());
         if x < 0.0 { (-upper, -lower) } else { (lower, upper) }
     };
+    // Rising: the ends tell.
     RealInterval::between(end(x.lower()).0, end(x.upper()).1)
 }
 
@@ -168,6 +171,7 @@ fn convergents(x: f64) -> (f64, f64) {
 impl Neg for Complex {
     type Output = Self;
     fn neg(self) -> Self {
+        // Not an exponential any more: the logarithm is dropped, as in every operation but exp.
         Self::new(-self.re, -self.im)
     }
 }
@@ -198,11 +202,13 @@ impl Mul for Complex {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
         if self.is_real() {
+            // A real factor: no products to add up, and real stays real.
             return Self::new(self.re * other.re, self.re * other.im);
         }
         if other.is_real() {
             return other * self;
         }
+        // Intervals as if independent: wider than need be, and never too narrow ("Intervals").
         Self::new(self.re * other.re - self.im * other.im, self.re * other.im + self.im * other.re)
     }
 }
@@ -218,6 +224,7 @@ impl Div for Complex {
         if square.is_empty() || square.lower() <= 0.0 {
             return Self::NOT_ANALYTIC;
         }
+        // The conjugate is not analytic, the quotient is: only its values matter here.
         let product = self * Self::new(other.re, -other.im);
         Self::new(product.re / square, product.im / square)
     }
@@ -249,6 +256,7 @@ impl Scalar for Complex {
         } else {
             (RealInterval::between(-1.0, 1.0), RealInterval::between(-1.0, 1.0))
         };
+        // The branch for ln, "Rectangles".
         let logarithm = Some((self.re, self.im));
         Self { re: magnitude * cosine, im: magnitude * sine, logarithm }
     }

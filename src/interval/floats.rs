@@ -46,6 +46,7 @@ macro_rules! impl_endpoint {
                 }
                 // Dekker's product: halves of the significand have exact products.
                 let halves = |x: $float| {
+                    // Veltkamp's split: the upper half of the significand, and what is left.
                     let shifted = $split * x;
                     let high = shifted - (shifted - x);
                     (high, x - high)

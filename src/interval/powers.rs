@@ -20,9 +20,11 @@ impl<T: Endpoint> Interval<T> {
             if n % 2 == 0 { [self.mignitude(), self.magnitude()] } else { [self.lower, self.upper] };
         let exponent = n.unsigned_abs();
         let [lower, upper] = [from, to].map(|x| {
+            // x^n of the magnitude, with the sign of an odd power: product takes no negative number.
             if x < T::ZERO { -product(Self::point(-x), exponent) } else { product(Self::point(x), exponent) }
         });
         let power = Self::between(lower.lower, upper.upper);
+        // The quotient knows what 0 in the divisor means.
         if n < 0 { Self::constant(1.0) / power } else { power }
     }
 
@@ -57,6 +59,7 @@ fn product<T: Endpoint>(x: Interval<T>, n: u32) -> Interval<T> {
             power = power * square;
         }
         rest /= 2;
+        // The square after the last bit is not needed, and might have no bound.
         if rest > 0 {
             square = square * square;
         }

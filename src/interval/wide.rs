@@ -64,6 +64,7 @@ impl Wide {
         if m == 0 {
             return Self::ZERO;
         }
+        // Zeros come in below: exact, as what fell off is accounted for above.
         let shift = m.leading_zeros();
         (m, e) = (m << shift, e - shift as i32);
         // Beyond the exponents an end goes to infinity or 0 where that is outward, else to the outermost finite number.
@@ -145,6 +146,7 @@ impl Endpoint for Wide {
     fn add(self, other: Self, toward: Toward) -> Self {
         let (large, small) =
             if self.magnitude() >= other.magnitude() { (self, other) } else { (other, self) };
+        // Ends that meet in a sum are never infinities of two signs.
         if small.is_zero() || large.is_infinite() {
             return large;
         }
@@ -222,6 +224,7 @@ impl Endpoint for Wide {
         }
         // An even exponent, which the root halves.
         let odd = self.e & 1;
+        // The bit that falls off only moves the first guess.
         let m = self.m >> odd;
         // Within 2^-62 of the root, so Heron's mean exceeds it by less than 2^-125.
         let first = Self::from_integer(square_root(m).into(), (self.e + odd) >> 1);
@@ -254,6 +257,7 @@ impl Endpoint for Wide {
 
     fn ln(self) -> Interval<Self> {
         if self.is_zero() || self.is_infinite() {
+            // ln 0 = -inf, ln inf = inf: ends without bound.
             let end = Self::infinity(self.is_zero());
             return Interval { lower: end, upper: end };
         }

@@ -26,6 +26,7 @@ impl<T: Real> Tolerance<T> {
     pub(super) fn check(self, finest: &Finest<T>) -> Result<(), Error> {
         let refused = |what, value: T, allowed| Err(Error::out_of_range(what, value.widen(), allowed));
         let Self { absolute, relative } = self;
+        // Written so that NaN is refused, too.
         if !(absolute >= T::zero() && absolute.is_finite()) {
             return refused("absolute tolerance", absolute, "0, or positive and finite");
         }

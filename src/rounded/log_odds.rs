@@ -98,10 +98,13 @@ pub(super) fn magnitude(m: u64, n: i32) -> Magnitude {
 fn magnitude_near_unknown(d: u64, n: i32) -> Magnitude {
     // Exact at scale 71, as n is at most 54.
     let z = d << (71 - n);
+    let above = log2_1p_over(z, false);
+    let below = log2_1p_over(z, true);
     // The sum of both slopes, at scale 126 = 112 + 14, times ln 2: scale 125.
-    let slope = mul_high((log2_1p_over(z, false) + log2_1p_over(z, true)) << 14, LN2);
+    let slope = mul_high((above + below) << 14, LN2);
     let shift = d.leading_zeros() as i32;
-    let value = mul_high(u128::from(d << shift) << 64, slope);
+    let significand = u128::from(d << shift) << 64;
+    let value = mul_high(significand, slope);
     // The error of the slopes, 2 LOG_1P_OVER_ERROR 2^14 (ln 2) / 2, leaves room for three floors.
     Magnitude { value, error: LOG_1P_OVER_ERROR << 14, exponent: -61 - shift - n }
 }
@@ -109,7 +112,8 @@ fn magnitude_near_unknown(d: u64, n: i32) -> Magnitude {
 /// Computes `|l| = (log2 (1 - q) - log2 q) ln 2` for `q = m 2^-n >= 2^-8`.
 fn magnitude_with_two_logarithms(m: u64, n: i32) -> Magnitude {
     let minus_log2_q = minus_log2_120(m, 52, n);
-    let minus_log2_rest = minus_log2_120((1 << n) - m, n as u32 - 1, n);
+    let rest = (1 << n) - m;
+    let minus_log2_rest = minus_log2_120(rest, n as u32 - 1, n);
     // Scale 120 = 120 + 128 - 128. Two logarithms and ln 2 make 1.39 LOG_ERROR, and floors.
     let value = mul_high((minus_log2_q - minus_log2_rest) as u128, LN2 << 1);
     Magnitude { value, error: 2 * LOG_ERROR, exponent: -120 }
@@ -117,9 +121,9 @@ fn magnitude_with_two_logarithms(m: u64, n: i32) -> Magnitude {
 
 /// Computes `|l| = (log2 (1 - q) - log2 q) ln 2` for `q = m 2^-n < 2^-8`, with `-log2 (1 - q)` a slope times `q`.
 fn magnitude_with_small_occupancy(m: u64, n: i32) -> Magnitude {
+    let slope = log2_1p_over(floor_71(m, n), true);
     // q slope, scale 112: m 2^75 is q 2^(75 + n), so the mul_high is q slope 2^(n - 53).
-    let minus_log2_rest =
-        shift_right(mul_high(u128::from(m) << 75, log2_1p_over(floor_71(m, n), true)), n - 53);
+    let minus_log2_rest = shift_right(mul_high(u128::from(m) << 75, slope), n - 53);
     let minus_log2_q = minus_log2_112(m, n) as u128;
     // Scale 112. The logarithm's LOG_ERROR >> 8 and 2^-8 of the slope's error: below 1.5 LOG_ERROR >> 8.
     let value = mul_high(minus_log2_q - minus_log2_rest, LN2 << 1);

@@ -29,6 +29,7 @@ macro_rules! impl_collection {
         impl<T: Real> $sums<T> {
             /// Merges parts of a map into one.
             fn merged<B: Borrow<Self>>(parts: impl Iterator<Item = B>) -> Self {
+                // Any tree of merges gives the same bits: sums.md, theorem (exact sums).
                 parts.fold(Self::new(), |mut sum, part| {
                     sum.merge(part.borrow());
                     sum

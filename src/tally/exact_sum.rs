@@ -110,7 +110,9 @@ impl ExactSum {
             return Err(Error::out_of_range("number to remove from a sum", x.widen(), "0 to 1"));
         }
         let (m, e) = x.parts();
+        // The place at which add_many has put it.
         let (limb, bit) = ((e - LOWEST) as usize / 64, (e - LOWEST) as usize % 64);
+        // On a copy: a borrow from beyond the last limb means that the sum holds less, and leaves it as it was.
         let mut rest = self.limbs;
         let removed = limbs::at_bit(u128::from(m) * u128::from(count), bit);
         if limbs::subtract_multiple(&mut rest[limb..], &removed, 1) != 0 {
@@ -126,6 +128,7 @@ impl ExactSum {
     /// # Panics
     /// If the sum would reach `2^78`; then the sum is lost.
     pub fn merge(&mut self, other: &Self) {
+        // One unit for all sums: limb by limb, without rounding.
         self.carry_into(0, &other.limbs);
     }
 
@@ -145,6 +148,7 @@ impl ExactSum {
     /// Returns whether the sum is a multiple of `2^exponent`.
     pub(super) fn is_multiple_of_power(&self, exponent: i32) -> bool {
         let bits = (exponent - LOWEST) as usize;
+        // The bits of each limb that are worth less than the power.
         let below = |(k, limb): (usize, &u64)| match bits.saturating_sub(64 * k) {
             0 => 0,
             low @ 1..64 => limb & ((1 << low) - 1),
@@ -155,6 +159,7 @@ impl ExactSum {
 
     /// Returns the sum, rounded once to nearest.
     pub fn value<T: Real>(&self) -> T {
+        // No remainder: one rounding, theorem (exact sums).
         self.mean(1)
     }
 

@@ -96,6 +96,7 @@ impl<T: Real> InformationSum<T> {
         if p == T::HALF {
             self.unknown += 1;
         } else if cell::in_unit_interval(p) {
+            // I(p) = I(1 - p): free and occupied cells are counted alike.
             self.sum.add(cell::information(p));
             self.observed += 1;
         }
@@ -112,6 +113,7 @@ impl<T: Real> InformationSum<T> {
 
     /// Adds to the counts, not to the sum.
     fn count(&mut self, unknown: u64, observed: u64) {
+        // Counts of one cell state or of one sum, so this cannot overflow; the total may.
         let more = unknown + observed;
         assert!(self.cells().checked_add(more).is_some(), "{TOO_MANY}");
         self.unknown += unknown;

@@ -126,6 +126,7 @@ impl<T: Real> Tally<T> {
 
     /// Adds `count` cells of one state to the counts, not to the sums.
     fn count(&mut self, state: State, count: u64) {
+        // Each of the three is at most the number of all cells, which was checked.
         match state {
             State::Unknown => self.unknown += count,
             State::Free => self.free += count,

@@ -36,12 +36,14 @@ impl<T: Real> Tally<T> {
             State::Free => &mut self.free,
             State::Occupied => &mut self.occupied,
         };
+        // Checked before anything changes.
         let Some(left) = held.checked_sub(count) else {
             let allowed = "at most those of that state in the tally";
             return Err(Error::out_of_range("number of cells to remove", count as f64, allowed));
         };
         // Both or neither.
         let mut entropy = self.entropy.clone();
+        // The integers that add_many added: subtracting them leaves no trace.
         entropy.remove_many(cell.entropy(), count)?;
         self.information.remove_many(cell.information(), count)?;
         (self.entropy, *held) = (entropy, left);

@@ -357,9 +357,9 @@ impl<M: InverseSensorModel> InverseSensorModel for WithoutPlateau<M> {
 }
 
 /// A model that counts how often it is asked.
-struct Counted<'a>(SteppedSensor<f64>, &'a Cell<usize>);
+struct CountsCalls<'a>(SteppedSensor<f64>, &'a Cell<usize>);
 
-impl InverseSensorModel for Counted<'_> {
+impl InverseSensorModel for CountsCalls<'_> {
     type Float = f64;
 
     fn occupancy(&self, rho: f64) -> f64 {
@@ -383,6 +383,7 @@ fn cells_of_the_plateau_are_not_asked_about() {
     let scan =
         Scan::new(pose_of(0.001, 0.002, 0.7), 9.0, vec![Beam { bearing: 0.1, range: Some(4.0) }]).unwrap();
     let mut map = ScanMap::new(0.01).unwrap();
-    map.insert(&scan, |range| Ok(Counted(SteppedSensor::new(range, 0.03, 0.25, 0.875)?, &asked))).unwrap();
+    map.insert(&scan, |range| Ok(CountsCalls(SteppedSensor::new(range, 0.03, 0.25, 0.875)?, &asked)))
+        .unwrap();
     assert!(map.tally().observed() > 400 && asked.get() < 20, "{}", asked.get());
 }

@@ -39,7 +39,7 @@ pub(crate) fn tokens(text: &str) -> Vec<String> {
 pub(crate) fn expressions(text: &str) -> Vec<Expression> {
     let tokens = tokens(text);
     let starts = |i: usize| {
-        i == 0 || matches!(tokens[i - 1].as_str(), "=" | "(" | "{" | "}" | "," | ";" | "else" | "|")
+        i == 0 || matches!(tokens[i - 1].as_str(), "=" | "(" | "{" | "}" | "," | ";" | ":" | "else" | "|")
     };
     let whole = |i: usize| {
         let mut parser = Parser { tokens: &tokens[i..] };

@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use std::fs;
 
 /// Functions without a script of their own: they define the translation (`expression.rs`), only branch, or lose nothing.
-const UNQUOTED: [&str; 14] = [
+const UNQUOTED: [&str; 20] = [
     "mul_high",
     "shift_right",
     "horner",
@@ -28,6 +28,12 @@ const UNQUOTED: [&str; 14] = [
     "new",
     "gap",
     "ball",
+    "log_odds_from_occupancy",
+    "fixed_log_odds",
+    "round_log_odds",
+    "occupancy_from_fixed_log_odds",
+    "magnitude",
+    "is_above",
 ];
 
 /// A quotation, and the definitions directly under it.

@@ -23,12 +23,14 @@ impl<T: Real> Compensated<T> {
         // Knuth's two-sum: what the addition has lost, exactly.
         let of_x = sum - self.sum;
         let lost = (self.sum - (sum - of_x)) + (x - of_x);
+        // The losses are of the second order: what their own sum loses is of the third.
         Self { sum, lost: self.lost + lost }
     }
 
     /// Adds another sum.
     #[must_use]
     pub(super) fn merged(self, other: Self) -> Self {
+        // What adding both sums loses, and what either has lost before.
         let Self { sum, lost } = self.plus(other.sum);
         Self { sum, lost: lost + other.lost }
     }

@@ -48,10 +48,13 @@ pub fn graded<T: Real>(from: T, towards: T, ratio: T, panels: usize) -> Result<V
         let point = half + distance * power;
         // Doubled back, and kept between the ends.
         points.push((point + point).max(low).min(high));
+        // One more rounding of the distance: the k of the bound.
         power = power * ratio;
     }
+    // The ends exactly: half of a subnormal number may be rounded.
     points[0] = from;
     points.push(towards);
+    // Break points ascend.
     if towards < from {
         points.reverse();
     }

@@ -42,6 +42,7 @@ impl<T: Real> GaussKronrod<T> {
                 return Err(Error::out_of_range(what, end.widen(), "finite numbers"));
             }
         }
+        // Panels ascend; backwards the integral is the negative.
         if from <= to {
             return self.integrate_between(f, &[from, to]);
         }
@@ -83,7 +84,9 @@ impl<T: Real> GaussKronrod<T> {
         let stretches = points
             .windows(2)
             .map(|ends| Stretch { lower: ends[0], upper: ends[1] })
+            // Points that repeat leave nothing between them.
             .filter(|stretch| stretch.lower < stretch.upper);
+        // Every stretch is measured once, or there would be no value to claim an error of.
         self.check(stretches.clone().count() as u64)?;
         Ok(Integration::new(self, f, Stretch { lower, upper }).run(stretches))
     }

@@ -36,6 +36,7 @@ impl<'a, T: Real, F: FnMut(T) -> T> Integration<'a, T, F> {
         let mut before = None;
         for stretch in stretches {
             let panel = self.measured(stretch, None);
+            // No panel stands above this one whose value could be kept.
             if !panel.value.is_finite() {
                 return self.ended(T::zero(), T::zero(), not_finite(stretch));
             }
@@ -44,6 +45,7 @@ impl<'a, T: Real, F: FnMut(T) -> T> Integration<'a, T, F> {
             (before, self.outer[1]) = (Some(place), place);
         }
         loop {
+            // No stretch: all points are the same, and the integral is 0.
             let Some(totals) = self.panels.totals() else {
                 return self.ended(T::zero(), T::zero(), Status::Converged);
             };
@@ -88,6 +90,7 @@ impl<'a, T: Real, F: FnMut(T) -> T> Integration<'a, T, F> {
             return Err(Status::EvaluationLimit);
         }
         let panel = *self.panels.at(place);
+        // Outside of the nodes: the value stays, only the doubt changes ("What the ends hide").
         let x = panel.stretch.witness(side, self.whole);
         let value = (self.f)(x);
         self.evaluations += 1;
@@ -152,6 +155,7 @@ impl<'a, T: Real, F: FnMut(T) -> T> Integration<'a, T, F> {
     /// Settles a panel: its claim stays as it is, and halving will not come back.
     fn settle(&mut self, place: usize) {
         let panel = *self.panels.at(place);
+        // Nothing will reduce it any more.
         let fixed = panel.fixed + panel.reducible;
         let settled = Panel { reducible: T::zero(), fixed, is_settled: true, ..panel };
         let claim = |panel: &Panel<T>| panel.claim()[1];
@@ -165,6 +169,7 @@ impl<'a, T: Real, F: FnMut(T) -> T> Integration<'a, T, F> {
     fn measured(&mut self, stretch: Stretch<T>, parent: Option<&Panel<T>>) -> Panel<T> {
         let rule = self.settings.rule;
         self.evaluations += rule.evaluations();
+        // Of all the values: a peak between nodes leaves them 0 ("What cannot be known").
         let reading = rule.apply(&mut self.f, stretch);
         self.all_zero &= reading.is_zero;
         claimed(&reading, stretch, parent)
@@ -172,6 +177,7 @@ impl<'a, T: Real, F: FnMut(T) -> T> Integration<'a, T, F> {
 
     /// Returns the reason why halving does not help, given the part of the error that it does not reduce.
     fn out_of_reach(&self, fixed: T) -> Status<T> {
+        // Half of what is left or more is one panel's: that is the reason. Else roundings everywhere are.
         match self.unresolved {
             Some(panel) if panel.claim()[1] + panel.claim()[1] >= fixed => {
                 Status::Unresolved { lower: panel.stretch.lower, upper: panel.stretch.upper }

@@ -34,6 +34,7 @@ impl<T: Real> Totals<T> {
             if other.most > self.most { (other.worst, other.most) } else { (self.worst, self.most) };
         Self {
             value: self.value.merged(other.value),
+            // Claims are estimates: their sums may round.
             reducible: self.reducible + other.reducible,
             fixed: self.fixed + other.fixed,
             worst,
@@ -74,6 +75,7 @@ impl<T: Real> Panels<T> {
 
     /// Puts another panel at a place, between the same ones.
     pub(super) fn replace(&mut self, place: usize, panel: Panel<T>) {
+        // Neighbours stay: only what lies between them has changed.
         let beside = self.places[place].0.beside;
         self.places[place].0 = Panel { beside, ..panel };
         self.renew(place);

@@ -71,12 +71,14 @@ impl Rule {
 
     /// Returns the number of evaluations of one application, `2n + 1`.
     pub const fn evaluations(self) -> u64 {
+        // Every node but the middle one stands for two.
         self.table().nodes.len() as u64 * 2 - 1
     }
 
     /// Returns the highest degree of polynomials that are integrated exactly: `3n + 1`, or `3n + 2` for odd `n`, by
     /// symmetry.
     pub const fn degree(self) -> u64 {
+        // A symmetric rule gives 0 for odd powers: the next odd degree comes for nothing.
         (3 * self.table().nodes.len() as u64 - 2) | 1
     }
 
@@ -122,6 +124,7 @@ impl Rule {
 
     /// Returns the part of a stretch between its end and the outermost node.
     pub(super) fn gap<T: Real>(self) -> T {
+        // γ ("What the ends hide"): [-1, 1] is two long.
         T::nearest((1.0 - self.table().nodes[0]) / 2.0)
     }
 
@@ -292,6 +295,7 @@ const fn ends<const N: usize>(nodes: &[f64; N]) -> [[f64; 2]; N] {
 
 /// Returns the square root by Heron's method, from above, for the compiler.
 const fn square_root(x: f64) -> f64 {
+    // At most 91, by K61: the first steps halve the excess, the last ones square it away.
     let mut root = x;
     let mut step = 0;
     while step < 12 {

@@ -89,6 +89,7 @@ impl<T: Real> GaussKronrod<T> {
             relative: T::epsilon(),
             allowed: "0, or from the spacing of floats at 1 up to 1",
         })?;
+        // The first panels are measured in any case.
         if self.limit < panels.max(1).saturating_mul(self.rule.evaluations()) {
             return Err(Error::out_of_range("evaluation limit", self.limit as f64, self.rule.least()));
         }

@@ -19,6 +19,7 @@ impl<T: Real> Stretch<T> {
 
     /// Returns `x (upper - lower)`, also where the width is no float.
     pub(super) fn widths(self, x: T) -> T {
+        // Half the width times twice the factor, where the width overflows.
         let width = self.upper - self.lower;
         if width.is_finite() { width * x } else { (self.upper * T::HALF - self.lower * T::HALF) * (x + x) }
     }
@@ -43,6 +44,7 @@ impl<T: Real> Stretch<T> {
     /// Returns true if floats are dense enough for the outermost nodes to stay off the ends, by some 8 spacings: with
     /// fewer, their rounding would show in how a singularity at the end converges.
     pub(super) fn has_room_for(self, outermost: T) -> bool {
+        // Measured on the nodes as they are rounded.
         let [first, last] = self.pair(outermost);
         let room = T::from_parts(8, 0) * T::epsilon() * self.magnitude();
         first - self.lower > room && self.upper - last > room

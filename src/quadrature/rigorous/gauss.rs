@@ -53,6 +53,7 @@ impl Chooser {
     ) -> Option<Choice> {
         let ends = (Interval::point(a), Interval::point(b));
         let half = Interval::constant(0.5);
+        // Enclosed, as the middle need not be a float; halves first, so that nothing overflows.
         let (centre, radius) = (half * ends.0 + half * ends.1, half * ends.1 - half * ends.0);
         let mut largest = |ellipse: f64, rectangles: &[(f64, f64, f64)]| {
             let (rho, inverse) =
@@ -101,6 +102,7 @@ fn rule(ellipse: f64, bound: f64, radius: Interval<f64>, allowed: f64) -> Option
     let (one, ratio) = (Interval::constant(1.0), square * square);
     // (64/15) G r^-2n / (1 - r^-2), times the half width: theorem (remainder).
     let scale = Interval::constant(64.0) / Interval::constant(15.0) * radius / (one - square);
+    // n = 2: r^-4.
     let mut remainder = scale * Interval::point(bound) * ratio;
     let mut nodes = 2;
     for rule in RULES {
@@ -127,6 +129,7 @@ pub(super) fn integrate(
     type Value = Interval<Wide>;
     let half = Value::constant(0.5);
     let (a, b) = (Value::constant(a), Value::constant(b));
+    // In 128 bits: lemma (128 bits) gives the width of the sum.
     let (centre, radius) = (half * (a + b), half * (b - a));
     let mut sum = Value::constant(0.0);
     for &(node, weight) in choice.rule {

@@ -80,6 +80,7 @@ impl<T: Real> Rigorous<T> {
 
     /// Encloses the integral between two floats.
     fn between_floats(&self, f: &impl Integrand, from: f64, to: f64) -> Integral {
+        // Panels ascend; backwards the integral is the negative.
         if from > to {
             let reversed = self.between_floats(f, to, from);
             return Integral { value: -reversed.value, ..reversed };
@@ -104,6 +105,7 @@ pub(crate) fn break_points(f: &impl Integrand, from: f64, to: f64, limit: u64) -
 
 /// Returns the float below `x`, and the integral from there to `x`.
 fn split(f: &impl Integrand, x: Interval<Wide>) -> (f64, Interval<Wide>) {
+    // From below, so that the sliver is never negative.
     let near = x.lower().to_real::<f64>(Toward::Down);
     let start = Interval::constant(near);
     if x == start {

@@ -54,6 +54,7 @@ impl<F: Integrand> Search<'_, F> {
             let wanted = wanted(smallest_magnitude(value));
             let status = match sum.status {
                 _ if width(value) <= wanted => Status::Converged,
+                // Each panel is as narrow as was asked for, their sum is not: roundings.
                 Status::Converged => Status::RoundOff,
                 other => other,
             };
@@ -179,6 +180,7 @@ impl<F: Integrand> Search<'_, F> {
             return false;
         }
         let point: Interval<T> = self.range(x, x);
+        // The width at one point is roundings alone: lemma (128 bits).
         let width = point.width();
         width.add(width, Toward::Up) >= range.width()
     }
@@ -191,6 +193,7 @@ fn width(x: Interval<Wide>) -> f64 {
 
 /// Returns the smallest magnitude, rounded down.
 fn smallest_magnitude(x: Interval<Wide>) -> f64 {
+    // 0 where the enclosure leaves the sign open: only an absolute tolerance can be met.
     let [lower, upper] = [x.lower(), -x.upper()].map(|end| end.to_real::<f64>(Toward::Down));
     lower.max(upper).max(0.0)
 }

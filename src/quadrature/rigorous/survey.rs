@@ -58,6 +58,7 @@ pub(super) fn magnitude(
     by_points: f64,
     tolerance: Tolerance<f64>,
 ) -> f64 {
+    // The points have seen something, or all that ranges allow is within the absolute tolerance.
     let is_enough = |most| by_points >= BLIND * most || tolerance.relative * most <= tolerance.absolute;
     let panels = crowded(search, is_enough);
     // Of one sign on most of its panels the integral has that size; or it cancels, and some of the bound is left.
@@ -71,6 +72,7 @@ pub(super) fn magnitude(
 pub(super) fn break_points(search: &mut Search<'_, impl Integrand>) -> Vec<f64> {
     let mut points: Vec<f64> = crowded(search, |_| false).iter().map(|panel| panel.from).collect();
     points.push(search.to);
+    // Panels stand in the order in which they were made.
     points.sort_unstable_by(f64::total_cmp);
     points
 }
@@ -105,6 +107,7 @@ fn halve_worst(search: &mut Search<'_, impl Integrand>, panels: &mut Vec<Panel>)
     });
     let Some(worst) = worst else { return false };
     let Panel { from, to, .. } = panels[worst];
+    // Halves first: the sum of the ends may overflow.
     let middle = 0.5 * from + 0.5 * to;
     if !(from < middle && middle < to && to - from > NARROWEST * search.to - NARROWEST * search.from) {
         return false;

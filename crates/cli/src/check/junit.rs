@@ -1,6 +1,6 @@
 //! The verdict as JUnit XML, which the viewers of continuous integration read: a suite per operation.
 
-use super::{Check, Counts, TestFailure, Verdict, words};
+use super::{Check, TestCounts, TestFailure, Verdict, words};
 use crate::one_line::one_line;
 use crate::output;
 use std::fmt::Write;
@@ -16,7 +16,7 @@ impl Check {
         let others = self.stale.len() + self.ending.port_failures.len();
         let _ = writeln!(xml, "<testsuites{}>", attributes("meaninfo check", totals.cases + others, totals));
         for operation in &self.operations {
-            let counts = Counts::of(&operation.verdicts);
+            let counts = TestCounts::of(&operation.verdicts);
             let op = &operation.vectors.op;
             let _ = writeln!(xml, "  <testsuite{}>", attributes(op, counts.cases, counts));
             for (test, verdict) in operation.vectors.tests.iter().zip(&operation.verdicts) {
@@ -37,7 +37,7 @@ impl Check {
             xml.push_str("  </testsuite>\n");
         }
         if others > 0 {
-            let counts = Counts { failed: others, ..Counts::default() };
+            let counts = TestCounts { failed: others, ..TestCounts::default() };
             let _ = writeln!(xml, "  <testsuite{}>", attributes(OTHER, others, counts));
             for line in &self.stale {
                 case(&mut xml, OTHER, line, &failed("not a known failure any more", "stale", ""));
@@ -60,8 +60,8 @@ fn kind(failure: &TestFailure) -> &'static str {
     }
 }
 
-fn attributes(name: &str, tests: usize, counts: Counts) -> String {
-    let Counts { failed, skipped, .. } = counts;
+fn attributes(name: &str, tests: usize, counts: TestCounts) -> String {
+    let TestCounts { failed, skipped, .. } = counts;
     format!(
         " name=\"{}\" tests=\"{tests}\" failures=\"{failed}\" errors=\"0\" skipped=\"{skipped}\" time=\"0\"",
         escaped(name)

@@ -108,7 +108,7 @@ enum TestFailure {
 
 /// The numbers of tests by how they ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-struct Counts {
+struct TestCounts {
     cases: usize,
     passed: usize,
     /// The passed answers that only the port's claims allow.
@@ -119,7 +119,7 @@ struct Counts {
     known: usize,
 }
 
-impl Counts {
+impl TestCounts {
     fn of<'a>(verdicts: impl IntoIterator<Item = &'a Verdict>) -> Self {
         verdicts.into_iter().fold(Self::default(), |mut counts, verdict| {
             counts.cases += 1;
@@ -185,8 +185,8 @@ impl Check {
     }
 
     /// Counts the tests of all operations; stale known failures and troubles between requests count as failed.
-    fn totals(&self) -> Counts {
-        let mut counts = Counts::of(self.operations.iter().flat_map(|operation| &operation.verdicts));
+    fn totals(&self) -> TestCounts {
+        let mut counts = TestCounts::of(self.operations.iter().flat_map(|operation| &operation.verdicts));
         counts.failed += self.stale.len() + self.ending.port_failures.len();
         counts
     }

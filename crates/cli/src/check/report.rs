@@ -4,7 +4,7 @@ use super::judge::Deviation;
 use super::run::request;
 use super::values::FloatFormat;
 use super::vectors::Test;
-use super::{Answered, Cause, Check, Checked, Counts, PortFailure, Role, TestFailure, Verdict, words};
+use super::{Answered, Cause, Check, Checked, PortFailure, Role, TestCounts, TestFailure, Verdict, words};
 use crate::one_line::one_line;
 use crate::output::{Number, Record, Report, Value, short, table};
 use crate::protocol::Claim;
@@ -72,7 +72,7 @@ impl Checked {
     }
 
     fn section(&self, text: &mut String) {
-        let counts = Counts::of(&self.verdicts);
+        let counts = TestCounts::of(&self.verdicts);
         let failures = counts.failed + counts.known;
         if failures == 0 {
             return;
@@ -118,7 +118,7 @@ impl Checked {
     }
 
     fn record(&self, format: FloatFormat, verdicts: &[&Verdict]) -> Record {
-        let counts = Counts::of(verdicts.iter().copied());
+        let counts = TestCounts::of(verdicts.iter().copied());
         let count = |n: usize| Value::Count(n as u64);
         let cause = self.causes.first().filter(|cause| cause.role == Role::Cause);
         let cause = cause.map(|cause| cause.name.clone()).unwrap_or_default();
@@ -245,7 +245,7 @@ impl Check {
 
     fn summary(&self) -> String {
         let row = |operation: &Checked, format: FloatFormat, verdicts: &[&Verdict]| {
-            let counts = Counts::of(verdicts.iter().copied());
+            let counts = TestCounts::of(verdicts.iter().copied());
             let worst = |measure| worst_error(verdicts, measure).map(short).unwrap_or_default();
             [
                 operation.vectors.op.clone(),
@@ -296,7 +296,7 @@ impl Check {
         for (reason, cases) in self.skipped() {
             let _ = writeln!(text, "{cases} cases skipped: {}", one_line(reason));
         }
-        let Counts { known, by_claim, passed, .. } = self.totals();
+        let TestCounts { known, by_claim, passed, .. } = self.totals();
         if by_claim > 0 {
             let _ = writeln!(
                 text,
@@ -339,7 +339,7 @@ impl Report for Check {
         }
         text.push('\n');
         self.remarks(&mut text);
-        let Counts { passed, failed, skipped, .. } = self.totals();
+        let TestCounts { passed, failed, skipped, .. } = self.totals();
         let _ = writeln!(text, "{passed} passed, {failed} failed, {skipped} skipped");
         text
     }
@@ -374,7 +374,7 @@ impl Report for Check {
                 ("stderr", Value::Texts(failure.stderr.clone())),
             ])
         };
-        let Counts { passed, by_claim, failed, skipped, known, .. } = self.totals();
+        let TestCounts { passed, by_claim, failed, skipped, known, .. } = self.totals();
         Value::Record(Record(vec![
             ("port", Value::Record(port)),
             ("operations", Value::Records(self.operations.iter().map(Checked::json).collect())),

@@ -78,7 +78,7 @@ impl Scans {
 
 /// The numbers of random rooms in which the claims of Fig. 1 hold.
 #[derive(Debug, Default, PartialEq)]
-struct Counts {
+struct RoomCounts {
     better_aligned: u64,
     worse_misaligned: u64,
     more_observed: u64,
@@ -89,7 +89,7 @@ struct Counts {
     worse_moved: [u64; MOVED.len()],
 }
 
-impl Counts {
+impl RoomCounts {
     fn over(rooms: u64) -> Result<Self, Error> {
         let mut counts = Self::default();
         for seed in 0..rooms {
@@ -166,7 +166,7 @@ fn figure(scans: &Scans, maps: &[Grid<LogOdds<f64>>; 4]) -> Result<Figure, Failu
 fn claims(maps: &[Grid<LogOdds<f64>>; 4]) -> Result<Vec<Claim>, Failure> {
     let tallies = maps.each_ref().map(Grid::tally);
     let [alone_1, alone_2, aligned, misaligned] = tallies.each_ref().map(Tally::mean_information);
-    let counts = Counts::over(ROOMS)?;
+    let counts = RoomCounts::over(ROOMS)?;
     let in_rooms = |count: u64| format!("in {count} of {ROOMS} random rooms");
     let in_moved = MOVED.iter().zip(counts.worse_moved).rev();
     let in_moved =
@@ -253,9 +253,9 @@ mod tests {
 
     #[test]
     fn aligned_scans_inform_more_than_misaligned_ones() {
-        let counts = Counts::over(3).unwrap();
+        let counts = RoomCounts::over(3).unwrap();
         let worse_moved = counts.worse_moved;
-        let all = Counts {
+        let all = RoomCounts {
             better_aligned: 3,
             worse_misaligned: 3,
             more_observed: 3,

@@ -142,18 +142,18 @@ impl MapPicture {
         if self.squares.is_empty() {
             return Err(drawing_failure("the map has no cells"));
         }
-        let layout = Layout::of(self, titles);
-        let mut image = Bitmap::new(layout.size.0, layout.size.1);
-        self.paint_squares(&mut image, &layout);
-        self.paint_key(&mut image, &layout);
-        self.write_labels(&mut image, &layout, titles).map_err(drawing_failure)?;
+        let places = Places::of(self, titles);
+        let mut image = Bitmap::new(places.size.0, places.size.1);
+        self.paint_squares(&mut image, &places);
+        self.paint_key(&mut image, &places);
+        self.write_labels(&mut image, &places, titles).map_err(drawing_failure)?;
         Ok(image)
     }
 
-    fn paint_squares(&self, image: &mut Bitmap, layout: &Layout) {
-        for y in 0..layout.height {
+    fn paint_squares(&self, image: &mut Bitmap, places: &Places) {
+        for y in 0..places.height {
             let row = self.rows - 1 - y as usize / self.zoom;
-            for x in 0..layout.width {
+            for x in 0..places.width {
                 let colour = self.squares[row * self.columns + x as usize / self.zoom];
                 image.paint(LEFT + x, TOP + y, colour);
             }
@@ -161,16 +161,16 @@ impl MapPicture {
     }
 
     /// Paints the colour bar, and the swatches below it.
-    fn paint_key(&self, image: &mut Bitmap, layout: &Layout) {
-        let rows_of_bar = (0..layout.bar_height).map(|y| {
-            let part = f64::from(layout.bar_height - 1 - y) / f64::from(layout.bar_height - 1);
+    fn paint_key(&self, image: &mut Bitmap, places: &Places) {
+        let rows_of_bar = (0..places.bar_height).map(|y| {
+            let part = f64::from(places.bar_height - 1 - y) / f64::from(places.bar_height - 1);
             (TOP + y, (self.key.gradient)(part))
         });
         let swatches = (0..).zip(&self.key.swatches);
         let rows_of_swatches = swatches
-            .flat_map(|(k, &(_, colour))| (0..SWATCH).map(move |y| (layout.swatch_top(k) + y, colour)));
+            .flat_map(|(k, &(_, colour))| (0..SWATCH).map(move |y| (places.swatch_top(k) + y, colour)));
         for (y, colour) in rows_of_bar.chain(rows_of_swatches) {
-            for x in layout.bar_left..layout.bar_left + BAR_WIDTH {
+            for x in places.bar_left..places.bar_left + BAR_WIDTH {
                 image.paint(x, y, colour);
             }
         }
@@ -179,7 +179,7 @@ impl MapPicture {
     fn write_labels(
         &self,
         image: &mut Bitmap,
-        layout: &Layout,
+        places: &Places,
         titles: &[String; 2],
     ) -> Result<(), DrawingAreaErrorKind<std::convert::Infallible>> {
         let paper = Canvas::new(image).into_drawing_area();
@@ -203,19 +203,19 @@ impl MapPicture {
             paper.draw(&PathElement::new(corners, BLACK))
         };
 
-        let (right, bottom) = (LEFT + layout.width, TOP + layout.height);
+        let (right, bottom) = (LEFT + places.width, TOP + places.height);
         paper.draw(&Text::new(titles[0].as_str(), (LEFT, 12), TITLE.into_font().color(&BLACK)))?;
         label((LEFT, 36), HPos::Left, VPos::Top, &titles[1])?;
         label((LEFT, 56), HPos::Left, VPos::Top, &self.reduction())?;
 
-        frame(LEFT, TOP, layout.width, layout.height)?;
+        frame(LEFT, TOP, places.width, places.height)?;
         let [x_axis, y_axis] = &self.axes;
-        for (x, text) in x_axis.ticks(layout.width, 60) {
+        for (x, text) in x_axis.ticks(places.width, 60) {
             let x = LEFT + x;
             line((x, bottom), (x, bottom + 5))?;
             label((x, bottom + 7), HPos::Center, VPos::Top, &text)?;
         }
-        for (y, text) in y_axis.ticks(layout.height, 40) {
+        for (y, text) in y_axis.ticks(places.height, 40) {
             let y = bottom - 1 - y;
             line((LEFT - 6, y), (LEFT - 1, y))?;
             label((LEFT - 9, y), HPos::Right, VPos::Center, &text)?;
@@ -223,17 +223,17 @@ impl MapPicture {
         label((i32::midpoint(LEFT, right), bottom + 32), HPos::Center, VPos::Top, &x_axis.label)?;
         upwards((18, i32::midpoint(TOP, bottom)), &y_axis.label)?;
 
-        frame(layout.bar_left, TOP, BAR_WIDTH, layout.bar_height)?;
-        let bar_right = layout.bar_left + BAR_WIDTH;
+        frame(places.bar_left, TOP, BAR_WIDTH, places.bar_height)?;
+        let bar_right = places.bar_left + BAR_WIDTH;
         for (part, text) in &self.key.ticks {
-            let y = TOP + layout.bar_height - 1 - along(*part, 1.0, layout.bar_height);
+            let y = TOP + places.bar_height - 1 - along(*part, 1.0, places.bar_height);
             line((bar_right, y), (bar_right + 5, y))?;
             label((bar_right + 8, y), HPos::Left, VPos::Center, text)?;
         }
-        upwards((bar_right + 62, TOP + layout.bar_height / 2), self.key.title)?;
+        upwards((bar_right + 62, TOP + places.bar_height / 2), self.key.title)?;
         for (k, (name, _)) in (0..).zip(&self.key.swatches) {
-            let top = layout.swatch_top(k);
-            frame(layout.bar_left, top, BAR_WIDTH, SWATCH)?;
+            let top = places.swatch_top(k);
+            frame(places.bar_left, top, BAR_WIDTH, SWATCH)?;
             label((bar_right + 8, top + SWATCH / 2), HPos::Left, VPos::Center, name)?;
         }
         if !self.path.is_empty() {
@@ -241,8 +241,8 @@ impl MapPicture {
             let at = |&[x, y]: &[f64; 2]| {
                 let (x, y) = (x - self.corner[0], y - self.corner[1]);
                 (
-                    LEFT + along(x, x_axis.extent, layout.width),
-                    bottom - 1 - along(y, y_axis.extent, layout.height),
+                    LEFT + along(x, x_axis.extent, places.width),
+                    bottom - 1 - along(y, y_axis.extent, places.height),
                 )
             };
             let style = RGBColor(PATH[0], PATH[1], PATH[2]).stroke_width(2);
@@ -268,7 +268,7 @@ fn along(x: f64, end: f64, pixels: i32) -> i32 {
 }
 
 /// The places of the parts of the picture, in pixels.
-struct Layout {
+struct Places {
     width: i32,
     height: i32,
     bar_left: i32,
@@ -276,7 +276,7 @@ struct Layout {
     size: (u32, u32),
 }
 
-impl Layout {
+impl Places {
     fn of(map: &MapPicture, titles: &[String; 2]) -> Self {
         let (width, height) = ((map.columns * map.zoom) as i32, (map.rows * map.zoom) as i32);
         let bar_left = LEFT + width + GAP;

@@ -7,14 +7,14 @@ use std::io::{self, Read};
 /// A kind of container: how its records are read.
 pub(super) trait Container {
     /// Reads the record that begins here, without going beyond it. Returns whether more may follow.
-    fn record(&mut self, input: &mut Counted<'_>, delivery: &mut Delivery<'_>) -> Result<bool, Error>;
+    fn record(&mut self, input: &mut CountedInput<'_>, delivery: &mut Delivery<'_>) -> Result<bool, Error>;
 
     /// Tells whether a bag that ends at byte `end` has all its messages.
     fn is_whole(&self, end: u64) -> bool;
 }
 
 /// A reader that counts its bytes.
-pub(super) struct Counted<'a> {
+pub(super) struct CountedInput<'a> {
     input: &'a mut dyn Read,
     /// The byte that comes next.
     pub(super) at: u64,
@@ -23,7 +23,7 @@ pub(super) struct Counted<'a> {
     pub(super) is_cut: bool,
 }
 
-impl<'a> Counted<'a> {
+impl<'a> CountedInput<'a> {
     /// Begins to count the bytes of an input of so many.
     pub(super) fn new(input: &'a mut dyn Read, length: u64) -> Self {
         Self { input, at: 0, length, is_cut: false }
@@ -35,7 +35,7 @@ impl<'a> Counted<'a> {
     }
 }
 
-impl Read for Counted<'_> {
+impl Read for CountedInput<'_> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         let read = self.input.read(buffer)?;
         self.at += read as u64;

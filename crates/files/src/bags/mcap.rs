@@ -2,7 +2,7 @@
 //!
 //! By hand and not by the crate `mcap`: four kinds of records say all that is needed, and its decoders are C.
 
-use super::container::{Container, Counted};
+use super::container::{Container, CountedInput};
 use super::delivery::{Delivery, Encoding, Topic, array, read_exactly, skip};
 use crate::error::{Error, ErrorKind};
 use crc32fast::Hasher;
@@ -35,7 +35,7 @@ pub(super) struct Mcap {
 }
 
 impl Container for Mcap {
-    fn record(&mut self, input: &mut Counted<'_>, delivery: &mut Delivery<'_>) -> Result<bool, Error> {
+    fn record(&mut self, input: &mut CountedInput<'_>, delivery: &mut Delivery<'_>) -> Result<bool, Error> {
         input.expect(9);
         let [kind] = array(input)?;
         let length = u64::from_le_bytes(array(input)?);

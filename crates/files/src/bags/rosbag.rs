@@ -1,7 +1,7 @@
 //! ROS 1's `.bag`, version 2.0: records of a header, which is a list of `name=value`, and data; chunks hold records,
 //! compressed.
 
-use super::container::{Container, Counted};
+use super::container::{Container, CountedInput};
 use super::delivery::{Delivery, Encoding, Topic, array, read_exactly, skip};
 use super::fields::utf8;
 use crate::error::{Error, ErrorKind, Place};
@@ -38,7 +38,7 @@ pub(super) struct Rosbag {
 }
 
 impl Container for Rosbag {
-    fn record(&mut self, input: &mut Counted<'_>, delivery: &mut Delivery<'_>) -> Result<bool, Error> {
+    fn record(&mut self, input: &mut CountedInput<'_>, delivery: &mut Delivery<'_>) -> Result<bool, Error> {
         input.expect(4);
         let length = u32::from_le_bytes(array(input)?);
         input.expect(u64::from(length) + 4);

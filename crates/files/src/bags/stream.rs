@@ -1,6 +1,6 @@
 //! Containers that are a stream of records: MCAP and ROS 1's `.bag`, known by their first bytes.
 
-use super::container::{Container, Counted};
+use super::container::{Container, CountedInput};
 use super::delivery::{Delivery, Visitor};
 use super::{mcap, rosbag};
 use crate::error::{Error, ErrorKind, Place};
@@ -30,7 +30,7 @@ pub(super) fn read_file(
     delivery: &mut Delivery<'_>,
 ) -> Result<Vec<Warning>, Error> {
     delivery.begin_file();
-    let mut input = Counted::new(input, length);
+    let mut input = CountedInput::new(input, length);
     let mut magic = Vec::new();
     (&mut input).take(mcap::MAGIC.len() as u64).read_to_end(&mut magic)?;
     let mut container: Box<dyn Container> = if magic == mcap::MAGIC {

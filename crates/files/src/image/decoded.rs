@@ -4,14 +4,15 @@
 //! times what it holds is refused before memory is taken. Of a file with several images the first is read, as by the
 //! loaders.
 
+use super::ending;
 use super::layout::{Channels, Colours, Layout, Rest};
+use super::palette::Palette;
 use crate::error::{Error, ErrorKind};
 use crate::size::{CHUNK, Size};
-use image::codecs::bmp::BmpDecoder;
 use image::codecs::pnm::PnmDecoder;
 use image::error::ImageError;
 use image::{ColorType, ImageDecoder, ImageFormat, ImageReader, Limits};
-use std::io::{self, BufRead, Read, Seek, SeekFrom};
+use std::io::{self, BufRead, BufReader, Seek, SeekFrom};
 
 /// The bytes of pixels that any file may claim.
 const ANY_CLAIM: u64 = 64 << 20;
@@ -41,16 +42,19 @@ impl Decoded {
         let length = input.seek(SeekFrom::End(0))?;
         input.rewind()?;
         let limit = Limit { cells: max_cells, length };
-        let mut indices = false;
-        let mut pixels = match format {
-            ImageFormat::Bmp if colours == Colours::Sdl && is_plain_palette(&mut input)? => {
-                let mut decoder = BmpDecoder::new(&mut input).map_err(refused)?;
-                // SDL hands the indices themselves on, and ROS 1 takes them for greys.
-                indices = decoder.get_palette().is_some_and(|palette| !is_grey_scale(palette));
-                decoder.set_indexed_color(indices);
-                decode(decoder, limit)?
+        // SDL hands the indices of a palette themselves on, and ROS 1 takes them for greys.
+        let palette = if colours == Colours::Sdl { Palette::find(&mut input, format)? } else { None };
+        let indices = palette.as_ref().is_some_and(|palette| !palette.is_grey_scale());
+        input.rewind()?;
+        let mut pixels = match (format, palette) {
+            (_, Some(palette)) => {
+                let numbered = BufReader::new(palette.numbered(&mut input));
+                let reader = ImageReader::with_format(numbered, format);
+                let mut pixels = decode(reader.into_decoder().map_err(refused)?, limit)?;
+                pixels.keep_first_channel();
+                pixels
             }
-            ImageFormat::Pnm => {
+            (ImageFormat::Pnm, None) => {
                 let decoder = PnmDecoder::new(&mut input).map_err(refused)?;
                 // A bitmap's are expanded, others' are as the file has them.
                 let largest = decoder.header().as_bitmap().map_or(decoder.header().maximal_sample(), |_| 255);
@@ -71,10 +75,18 @@ impl Decoded {
         if format == ImageFormat::Tiff && colours == Colours::Sdl {
             pixels.make_alpha();
         }
-        let rest = match format {
-            ImageFormat::Pnm if goes_on(&mut input)? => Rest::More,
-            _ => Rest::Nothing,
+        let goes_on = match format {
+            ImageFormat::Pnm => goes_on(&mut input, u8::is_ascii_whitespace)?,
+            _ => match ending::end(&mut input, format)? {
+                Some(end) => {
+                    input.seek(SeekFrom::Start(end))?;
+                    // Some writers fill files up.
+                    goes_on(&mut input, |&byte| byte == 0)?
+                }
+                None => false,
+            },
         };
+        let rest = if goes_on { Rest::More } else { Rest::Nothing };
         let Pixels { size, channels, deep, bytes } = pixels;
         let cut = deep && colours != Colours::Meant;
         let bytes = match (deep, cut) {
@@ -143,6 +155,12 @@ impl Pixels {
         }
     }
 
+    /// Keeps the first of the channels, of samples of 8 bits.
+    fn keep_first_channel(&mut self) {
+        self.bytes = self.bytes.iter().copied().step_by(self.channels.count()).collect();
+        self.channels = Channels::Grey;
+    }
+
     /// Adds an opaque alpha where there is none.
     fn make_alpha(&mut self) {
         let channels = match self.channels {
@@ -197,31 +215,11 @@ fn decode(mut decoder: impl ImageDecoder, limit: Limit) -> Result<Pixels, Error>
     Ok(Pixels { size, channels, deep, bytes })
 }
 
-/// Tells whether a BMP has indices of 8 bits that are not compressed, and returns to its beginning.
-fn is_plain_palette(input: &mut (impl BufRead + Seek)) -> io::Result<bool> {
-    let mut head = Vec::new();
-    input.by_ref().take(34).read_to_end(&mut head)?;
-    input.rewind()?;
-    // Headers of 12 bytes have short numbers and no compression.
-    Ok(match head.get(14..18) {
-        Some([12, 0, 0, 0]) => head.get(24..26) == Some(&[8, 0]),
-        _ => head.get(28..34) == Some(&[8, 0, 0, 0, 0, 0]),
-    })
-}
-
-/// Tells whether the entries of a palette are the greys of their own numbers.
-fn is_grey_scale(palette: &[[u8; 3]]) -> bool {
-    palette
-        .iter()
-        .enumerate()
-        .all(|(index, colour)| colour.iter().all(|&sample| usize::from(sample) == index))
-}
-
-/// Tells whether more than white space follows.
-fn goes_on(input: &mut impl BufRead) -> io::Result<bool> {
+/// Tells whether more follows than bytes that mean nothing.
+fn goes_on(input: &mut impl BufRead, is_blank: impl Fn(&u8) -> bool) -> io::Result<bool> {
     loop {
         let bytes = input.fill_buf()?;
-        let (length, blank) = (bytes.len(), bytes.trim_ascii().is_empty());
+        let (length, blank) = (bytes.len(), bytes.iter().all(&is_blank));
         if length == 0 || !blank {
             return Ok(length > 0);
         }

@@ -5,7 +5,7 @@ use std::io::{self, Read, Take};
 
 /// The value of a field, of which texts and messages are still to be read.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Value {
+pub(super) enum WireValue {
     /// An integer.
     Varint(u64),
     /// Eight bytes.
@@ -16,7 +16,7 @@ pub(super) enum Value {
     Length(u64),
 }
 
-impl Value {
+impl WireValue {
     /// Returns the length of a message, or of packed numbers.
     pub(super) fn length(self) -> Result<u64, Error> {
         if let Self::Length(length) = self { Ok(length) } else { Err(of_another_type()) }
@@ -44,7 +44,7 @@ fn of_another_type() -> Error {
 }
 
 /// Takes a field by its number and its value; what it leaves of a message is passed over.
-pub(super) type Each<'a> = dyn FnMut(u64, Value, &mut Message<'_>) -> Result<(), Error> + 'a;
+pub(super) type Each<'a> = dyn FnMut(u64, WireValue, &mut Message<'_>) -> Result<(), Error> + 'a;
 /// The bytes of a message that are left.
 pub(super) type Message<'a> = Take<&'a mut dyn Read>;
 
@@ -78,16 +78,16 @@ pub(super) fn fields_to_end(input: &mut dyn Read, most: u64, each: &mut Each<'_>
 fn field(first: u8, message: &mut Message<'_>, each: &mut Each<'_>) -> Result<(), Error> {
     let key = varint_after(first, message)?;
     let value = match key & 7 {
-        0 => Value::Varint(varint(message)?),
-        1 => Value::Bits64(u64::from_le_bytes(array(message)?)),
-        2 => Value::Length(varint(message)?),
-        5 => Value::Bits32(u32::from_le_bytes(array(message)?)),
+        0 => WireValue::Varint(varint(message)?),
+        1 => WireValue::Bits64(u64::from_le_bytes(array(message)?)),
+        2 => WireValue::Length(varint(message)?),
+        5 => WireValue::Bits32(u32::from_le_bytes(array(message)?)),
         kind => {
             let refused = Error::new(ErrorKind::Format, format!("has a field of wire type {kind}"));
             return Err(refused.with_value(kind.to_string()).allowing(", allowed are ", "0, 1, 2 and 5"));
         }
     };
-    let Value::Length(length) = value else { return each(key >> 3, value, message) };
+    let WireValue::Length(length) = value else { return each(key >> 3, value, message) };
     let Some(end) = message.limit().checked_sub(length) else {
         let words = format!("has a field of {length} bytes, but its message has at most {}", message.limit());
         return Err(Error::new(ErrorKind::Format, words).with_value(length.to_string()));

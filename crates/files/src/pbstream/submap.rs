@@ -1,6 +1,6 @@
 //! A submap of a saved state: `Submap`, `Submap2D`, `Grid2D`.
 
-use super::fields::{Value, fields, varint};
+use super::fields::{WireValue, fields, varint};
 use crate::cells::Counts;
 use crate::error::{Error, ErrorKind};
 use crate::size::Size;
@@ -87,7 +87,7 @@ impl Grid {
         fields(input, length, &mut |number, value, input| {
             match (number, value) {
                 (1, value) => grid.read_limits(input, value.length()?)?,
-                (2, Value::Length(length)) => {
+                (2, WireValue::Length(length)) => {
                     let mut cells = input.take(length);
                     while cells.limit() > 0 {
                         let cell = varint(&mut cells)?;

@@ -2,7 +2,7 @@
 
 use super::text::text;
 use super::thresholds::Thresholds;
-use super::yaml::{Value, values};
+use super::yaml::{YamlValue, values};
 use crate::error::{Error, ErrorKind, Place};
 use crate::options::{Mode, Semantics};
 use crate::warning::Warning;
@@ -102,10 +102,10 @@ fn missing(key: &'static str) -> Error {
 }
 
 /// Takes the value of a key as one text.
-fn scalar(value: Option<Value>, key: &'static str) -> Result<String, Error> {
+fn scalar(value: Option<YamlValue>, key: &'static str) -> Result<String, Error> {
     match value {
-        Some(Value::Scalar(text)) => Ok(text),
-        Some(Value::List(_)) => Err(Error::new(ErrorKind::Format, format!("{key} is a list"))
+        Some(YamlValue::Scalar(text)) => Ok(text),
+        Some(YamlValue::List(_)) => Err(Error::new(ErrorKind::Format, format!("{key} is a list"))
             .at(Place::Key(key))
             .allowing(", allowed is ", "one value")),
         None => Err(missing(key)),
@@ -114,7 +114,7 @@ fn scalar(value: Option<Value>, key: &'static str) -> Result<String, Error> {
 
 /// Takes the value of a key as a number that `is_allowed`.
 fn number(
-    value: Option<Value>,
+    value: Option<YamlValue>,
     key: &'static str,
     allowed: &'static str,
     is_allowed: impl Fn(f64) -> bool,
@@ -149,15 +149,15 @@ fn quoted(what: &str, text: &str, key: &'static str) -> Error {
 }
 
 /// Takes the value of the origin.
-fn origin(value: Option<Value>) -> Result<[f64; 3], Error> {
+fn origin(value: Option<YamlValue>) -> Result<[f64; 3], Error> {
     let wrong = |what: String| {
         Error::new(ErrorKind::Format, format!("origin {what}"))
             .at(Place::Key("origin"))
             .allowing(", allowed is ", "a list of three numbers, [x, y, yaw]")
     };
     let items = match value {
-        Some(Value::List(items)) => items,
-        Some(Value::Scalar(_)) => return Err(wrong("is one value".to_owned())),
+        Some(YamlValue::List(items)) => items,
+        Some(YamlValue::Scalar(_)) => return Err(wrong("is one value".to_owned())),
         None => return Err(missing("origin")),
     };
     let [x, y, yaw] = items.as_slice() else {

@@ -7,7 +7,7 @@ use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
 /// The value of a key.
-pub(super) enum Value {
+pub(super) enum YamlValue {
     /// One text.
     Scalar(String),
     /// A list of texts.
@@ -20,7 +20,7 @@ pub(super) fn values(
     text: &str,
     keys: &[&'static str],
     warnings: &mut Vec<Warning>,
-) -> Result<HashMap<&'static str, Value>, Error> {
+) -> Result<HashMap<&'static str, YamlValue>, Error> {
     Events { text, parser: Parser::new_from_str(text) }.values(keys, warnings)
 }
 
@@ -68,7 +68,7 @@ impl<'a> Events<'a> {
         mut self,
         keys: &[&'static str],
         warnings: &mut Vec<Warning>,
-    ) -> Result<HashMap<&'static str, Value>, Error> {
+    ) -> Result<HashMap<&'static str, YamlValue>, Error> {
         let mut values = HashMap::new();
         loop {
             match self.next()? {
@@ -114,14 +114,14 @@ impl<'a> Events<'a> {
     }
 
     /// Reads the next value; `None` if it is a mapping, or a list of other things than scalars.
-    fn value(&mut self) -> Result<Option<Value>, Error> {
+    fn value(&mut self) -> Result<Option<YamlValue>, Error> {
         match self.next()? {
-            Event::Scalar(text, ..) => Ok(Some(Value::Scalar(text.into_owned()))),
+            Event::Scalar(text, ..) => Ok(Some(YamlValue::Scalar(text.into_owned()))),
             Event::SequenceStart(..) => {
                 let mut items = Some(Vec::new());
                 loop {
                     match self.next()? {
-                        Event::SequenceEnd => return Ok(items.map(Value::List)),
+                        Event::SequenceEnd => return Ok(items.map(YamlValue::List)),
                         Event::Scalar(text, ..) => {
                             if let Some(items) = &mut items {
                                 items.push(text.into_owned());

@@ -42,7 +42,8 @@ fn every_format_is_read_as_its_greys() {
                 ("map.tga", &colour, ImageFormat::Tga),
             ] {
                 // SDL_image gives ROS 1 every TIFF with alpha, which trinary mode averages.
-                if semantics == Semantics::Ros1 && format == ImageFormat::Tiff {
+                // Of a GIF it has the indices.
+                if semantics == Semantics::Ros1 && matches!(format, ImageFormat::Tiff | ImageFormat::Gif) {
                     continue;
                 }
                 let map = read_image(name, &encoded(image, format), &options);
@@ -85,9 +86,9 @@ fn sixteen_bits_and_alpha_are_kept() {
     assert_eq!(map.warnings, [Warning::TransparentReadAsUnknown { count: 1 }]);
 }
 
-/// A BMP of 8 bits with this palette, and indices in rows of 4 from the bottom.
-fn bmp(palette: &[[u8; 3]], indices: &[u8]) -> Vec<u8> {
-    let start = 54 + 4 * 256_u32;
+/// A BMP of 4 pixels of so many bits a row with this palette, and indices in rows of 4 bytes from the bottom.
+fn bmp(bits: u8, palette: &[[u8; 3]], indices: &[u8]) -> Vec<u8> {
+    let start = 54 + (4_u32 << bits);
     let mut bytes = b"BM".to_vec();
     bytes.extend((start + indices.len() as u32).to_le_bytes());
     bytes.extend([0; 4]);
@@ -95,9 +96,9 @@ fn bmp(palette: &[[u8; 3]], indices: &[u8]) -> Vec<u8> {
     bytes.extend(40_u32.to_le_bytes());
     bytes.extend(4_u32.to_le_bytes());
     bytes.extend((indices.len() as u32 / 4).to_le_bytes());
-    bytes.extend([1, 0, 8, 0]);
+    bytes.extend([1, 0, bits, 0]);
     bytes.extend([0; 24]);
-    bytes.extend((0..256).flat_map(|k| {
+    bytes.extend((0..1 << bits).flat_map(|k: usize| {
         let [r, g, b] = palette.get(k).copied().unwrap_or([k as u8; 3]);
         [b, g, r, 0]
     }));
@@ -107,16 +108,62 @@ fn bmp(palette: &[[u8; 3]], indices: &[u8]) -> Vec<u8> {
 
 #[test]
 fn a_bmp_with_a_palette_is_indices_to_ros_1() {
-    let plain = bmp(&[], &[0, 205, 254, 255]);
-    let coloured = bmp(&[[254; 3], [0; 3]], &[0, 1, 0, 1]);
+    let plain = bmp(8, &[], &[0, 205, 254, 255]);
     for semantics in [Semantics::Nav2, Semantics::Ros1] {
         let options = Options { semantics, ..Options::default() };
         assert_eq!(percents(&read_image("map.bmp", &plain, &options)), [100, -1, 0, 0]);
     }
-    assert_eq!(percents(&read_image("map.bmp", &coloured, &Options::default())), [0, 100, 0, 100]);
-    let ros1 =
-        read_image("map.bmp", &coloured, &Options { semantics: Semantics::Ros1, ..Options::default() });
+    let colours = [[254; 3], [0; 3]];
+    for (bits, indices) in [(1, [0b0101_0000, 0, 0, 0]), (4, [0x01, 0x01, 0, 0]), (8, [0, 1, 0, 1])] {
+        indices_to_ros_1("map.bmp", &bmp(bits, &colours, &indices));
+    }
+    // Compressed: a run of one pixel each, and the end.
+    let mut runs = bmp(8, &colours, &[1, 0, 1, 1, 1, 0, 1, 1, 0, 1]);
+    (runs[22], runs[30], runs[34]) = (1, 1, 10);
+    indices_to_ros_1("map.bmp", &runs);
+}
+
+#[test]
+fn a_gif_is_indices_to_ros_1() {
+    let image = RgbImage::from_fn(4, 1, |x, _| Rgb([if x % 2 == 0 { 254 } else { 0 }; 3]));
+    indices_to_ros_1("map.gif", &encoded(&DynamicImage::from(image), ImageFormat::Gif));
+}
+
+/// Reads four pixels of two colours, light and dark: to ROS 1 both are of a small number, and dark.
+fn indices_to_ros_1(name: &str, image: &[u8]) {
+    let nav2 = read_image(name, image, &Options::default());
+    assert_eq!((percents(&nav2), &nav2.warnings[..]), (&[0, 100, 0, 100][..], &[][..]));
+    let ros1 = read_image(name, image, &Options { semantics: Semantics::Ros1, ..Options::default() });
     assert_eq!((percents(&ros1), &ros1.warnings[..]), (&[100; 4][..], &[Warning::PaletteIndices][..]));
+}
+
+#[test]
+fn what_follows_a_decoded_image_is_said_where_it_has_an_end() {
+    let grey = DynamicImage::from(GrayImage::from_raw(4, 3, GREYS.to_vec()).unwrap());
+    let colour = DynamicImage::from(grey.to_rgb8());
+    let plain = bmp(4, &[[254; 3], [0; 3]], &[0x01, 0x01, 0, 0]);
+    for (name, image, has_end) in [
+        ("map.bmp", plain, true),
+        ("map.bmp", encoded(&colour, ImageFormat::Bmp), true),
+        ("map.gif", encoded(&colour, ImageFormat::Gif), true),
+        ("map.jpg", encoded(&grey, ImageFormat::Jpeg), true),
+        ("map.webp", encoded(&colour, ImageFormat::WebP), true),
+        ("map.tiff", encoded(&grey, ImageFormat::Tiff), false),
+        ("map.tga", encoded(&grey, ImageFormat::Tga), false),
+    ] {
+        for semantics in [Semantics::Nav2, Semantics::Ros1] {
+            let options = Options { semantics, ..Options::default() };
+            let says = |more: &[u8]| {
+                let map = read_image(name, &[&image, more].concat(), &options);
+                map.warnings.contains(&Warning::BytesAfterImage)
+            };
+            assert_eq!(
+                [says(b""), says(&[0; 2]), says(b"more")],
+                [false, false, has_end],
+                "{name} {semantics:?}"
+            );
+        }
+    }
 }
 
 #[test]
@@ -131,7 +178,7 @@ fn bitmaps_and_other_largest_samples_are_scaled() {
 fn what_claims_more_than_it_holds_takes_no_memory() {
     let folder = Folder::new();
     let map = folder.write("map.yaml", yaml("map.bmp", "negate: 0\n"));
-    let mut huge = bmp(&[], &[0; 4]);
+    let mut huge = bmp(8, &[], &[0; 4]);
     huge[18..22].copy_from_slice(&16000_u32.to_le_bytes());
     huge[22..26].copy_from_slice(&16000_u32.to_le_bytes());
     folder.write("map.bmp", &huge);
@@ -139,7 +186,7 @@ fn what_claims_more_than_it_holds_takes_no_memory() {
     assert!(refused.contains("which cannot hold the 16000 x 16000 pixels it claims"), "{refused}");
     let refused = refusal_of(&map, &Options { max_cells: Some(1000), ..Options::default() });
     assert!(refused.contains("more than the limit of 1000"), "{refused}");
-    let whole = bmp(&[], &[0; 4]);
+    let whole = bmp(8, &[], &[0; 4]);
     folder.write("map.bmp", &whole[..whole.len() - 2]);
     assert!(refusal_of(&map, &Options::default()).contains("cut short"));
 }

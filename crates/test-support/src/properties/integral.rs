@@ -11,7 +11,7 @@ pub fn integrate(bytes: &[u8]) {
     let [rule, kind, points, limit, floats @ ..] = bytes else {
         return;
     };
-    let integral = Integral {
+    let integral = IntegralCase {
         rule: Rule::ALL[usize::from(rule / 2) % Rule::ALL.len()],
         kind: *kind,
         points: usize::from(points % 16),
@@ -26,14 +26,14 @@ pub fn integrate(bytes: &[u8]) {
     }
 }
 
-struct Integral {
+struct IntegralCase {
     rule: Rule,
     kind: u8,
     points: usize,
     limit: u64,
 }
 
-impl Integral {
+impl IntegralCase {
     fn check<T: Real>(&self, floats: &[T]) {
         let [absolute, relative, rest @ ..] = floats else {
             return;

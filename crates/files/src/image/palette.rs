@@ -1,0 +1,85 @@
+//! Palettes of BMP and GIF, and images in which every entry is the grey of its own number: the indices that SDL hands on,
+//! which ROS 1 takes for greys.
+
+use super::ending::{first_frame, read_at};
+use image::ImageFormat;
+use std::io::{self, BufRead, Read, Seek, SeekFrom};
+
+/// The palette of an image, and where it stands in its file.
+pub(super) struct Palette {
+    start: u64,
+    /// The bytes of an entry: 3, or 4 of which the last is not used.
+    entry: usize,
+    bytes: Vec<u8>,
+}
+
+impl Palette {
+    /// Finds the palette of an image, and returns to its beginning; none if it has none that is whole.
+    pub(super) fn find(input: &mut (impl BufRead + Seek), format: ImageFormat) -> io::Result<Option<Self>> {
+        let place = match format {
+            ImageFormat::Bmp => of_bmp(&read_at(input, 0, 54)?),
+            ImageFormat::Gif => {
+                first_frame(input)?.and_then(|frame| frame.palette).map(|(start, n)| (start, n, 3))
+            }
+            _ => None,
+        };
+        let Some((start, entries, entry)) = place else { return Ok(None) };
+        let bytes = read_at(input, start, entries * entry)?;
+        input.rewind()?;
+        Ok((bytes.len() == entries * entry).then_some(Self { start, entry, bytes }))
+    }
+
+    /// Tells whether the entries are the greys of their own numbers.
+    pub(super) fn is_grey_scale(&self) -> bool {
+        let entries = self.bytes.chunks_exact(self.entry).enumerate();
+        entries.into_iter().all(|(n, entry)| entry[..3].iter().all(|&sample| usize::from(sample) == n))
+    }
+
+    /// Returns the file with the greys of their own numbers in the place of the entries.
+    pub(super) fn numbered<R: Read + Seek>(mut self, input: R) -> Numbered<R> {
+        for (n, entry) in self.bytes.chunks_exact_mut(self.entry).enumerate() {
+            entry[..3].fill(n as u8);
+        }
+        Numbered { input, place: 0, palette: self }
+    }
+}
+
+/// Returns the start of a BMP's palette, its entries and the bytes of each.
+fn of_bmp(head: &[u8]) -> Option<(u64, usize, usize)> {
+    let number = |at: usize| Some(u32::from_le_bytes(*head.get(at..)?.first_chunk()?));
+    let header = number(14)?;
+    // Headers of 12 bytes have short numbers, and entries of three bytes.
+    let (bits, used, entry) =
+        if header == 12 { (number(24)? >> 16, 0, 3) } else { (number(28)? & 0xffff, number(46)?, 4) };
+    let most = 1 << if bits <= 8 { bits } else { return None };
+    let entries = if used == 0 { most } else { used.min(most) };
+    Some((14 + u64::from(header), entries as usize, entry))
+}
+
+/// A file with another palette.
+pub(super) struct Numbered<R> {
+    input: R,
+    place: u64,
+    palette: Palette,
+}
+
+impl<R: Read> Read for Numbered<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let length = self.input.read(buffer)?;
+        for (place, byte) in (self.place..).zip(&mut buffer[..length]) {
+            let within = place.checked_sub(self.palette.start).and_then(|n| usize::try_from(n).ok());
+            if let Some(&own) = within.and_then(|n| self.palette.bytes.get(n)) {
+                *byte = own;
+            }
+        }
+        self.place += length as u64;
+        Ok(length)
+    }
+}
+
+impl<R: Seek> Seek for Numbered<R> {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        self.place = self.input.seek(to)?;
+        Ok(self.place)
+    }
+}

@@ -322,6 +322,9 @@ fn scans(
             let Opened { input, length } = open(source, path)?;
             return pbstream::read_scans(input, length, options, selection);
         }
+        if is(&[".mcap", ".db3", ".bag"]) {
+            return Err(Error::new(ErrorKind::Unsupported, "is a bag, which is read from a disk only"));
+        }
         if !is(&[".log", ".clf"]) {
             let refused = Error::new(ErrorKind::Unsupported, "is no log of scans by its name");
             let allowed =

@@ -215,8 +215,10 @@ impl Arguments {
     /// Returns the pose of the laser on the robot, also in words.
     fn mount(&self, log: &ScanLog) -> Result<(Pose, String), Failure> {
         let in_words = |pose: &Pose| {
-            let [x, y] = pose.position();
-            format!("{x}, {y} m and {} rad on the robot", pose.theta())
+            let ([x, y], yaw) = (pose.position(), pose.theta());
+            // A quaternion rounds.
+            let [x, y, yaw] = [x, y, yaw].map(|number| (number * 1e9).round() / 1e9);
+            format!("{x}, {y} m and {yaw} rad on the robot")
         };
         let nowhere = Pose::new(0.0, 0.0, 0.0)?;
         Ok(match (self.association.mount, log.mount) {

@@ -26,7 +26,7 @@ mod transforms;
 
 pub use delivery::{Encoding, Message, Topic, Visitor};
 pub use grid::{GridMessage, GridUpdate};
-pub use octomap::last_octree;
+pub use octomap::{last_octree, octree_of};
 pub use read::{is_bag, read_bag};
 pub use scans::{read_scans, scans_of};
 pub use series::{Change, MapSeries, Snapshot, last_map};

@@ -6,6 +6,7 @@ use super::read::read_bag;
 use crate::error::{Error, ErrorKind, Place};
 use crate::octree::{self, Octree, OctreeVisitor};
 use crate::options::Options;
+use crate::warning::Warning;
 use std::path::Path;
 
 /// The name of the type.
@@ -22,17 +23,30 @@ pub fn last_octree(
     options: &Options,
     visitor: &mut impl OctreeVisitor,
 ) -> Result<Octree, Error> {
+    let read = |taken: &mut dyn Visitor| read_bag(path, options, taken);
+    let mut tree = octree_of(read, topic, visitor).map_err(|error| error.in_file(path))?;
+    tree.files.push(path.to_owned());
+    Ok(tree)
+}
+
+/// Reads the last octree of `topic` of a bag, whose messages `read` hands to a visitor: as [`last_octree`].
+///
+/// # Errors
+/// As [`last_octree`].
+pub fn octree_of(
+    read: impl FnOnce(&mut dyn Visitor) -> Result<Vec<Warning>, Error>,
+    topic: &str,
+    visitor: &mut impl OctreeVisitor,
+) -> Result<Octree, Error> {
     let mut last = Last { topic, message: None };
-    let warnings = read_bag(path, options, &mut last)?;
+    let warnings = read(&mut last)?;
     let Some((topic, number, bytes)) = last.message else {
         let refused = Error::new(ErrorKind::Format, format!("has no message of topic {topic}"));
-        return Err(refused.with_value(topic).in_file(path));
+        return Err(refused.with_value(topic));
     };
     let message = Message { topic: &topic, number, time_ns: 0, bytes: &bytes };
-    let read = nodes(&message, visitor).map_err(|error| of_message(&topic, number, error));
-    let mut tree = read.map_err(|error| error.in_file(path))?;
+    let mut tree = nodes(&message, visitor).map_err(|error| of_message(&topic, number, error))?;
     tree.warnings.extend(warnings);
-    tree.files.push(path.to_owned());
     Ok(tree)
 }
 

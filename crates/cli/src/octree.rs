@@ -9,8 +9,9 @@ use mean_information::cell::Cell;
 use mean_information::map::Encoding;
 use mean_information::map::encoding::LogOdds;
 use mean_information::{ExactSum, Tally};
-use mean_information_files::octree::{DEPTH, Leaf, Octant, OctreeVisitor};
-use mean_information_files::read_octree;
+use mean_information_files::bags::last_octree;
+use mean_information_files::octree::{DEPTH, Leaf, Octant, Octree, OctreeVisitor};
+use mean_information_files::{Error, Options, read_octree};
 use std::path::Path;
 
 /// The number of depths, that of the root included.
@@ -74,14 +75,30 @@ impl OctreeVisitor for FinestCells {
 }
 
 impl MeasuredTree {
-    /// Reads and measures a tree.
+    /// Reads and measures the tree of a file.
     ///
     /// # Errors
     /// A file that is no octree.
     pub fn read(path: &Path, clamp: Clamp) -> Result<Self, Failure> {
+        Self::measured(clamp, |cells| read_octree(path, cells))
+    }
+
+    /// Reads and measures the last tree of a topic of a bag.
+    ///
+    /// # Errors
+    /// As [`last_octree`].
+    pub fn read_last(path: &Path, topic: &str, options: &Options, clamp: Clamp) -> Result<Self, Failure> {
+        Self::measured(clamp, |cells| last_octree(path, topic, options, cells))
+    }
+
+    /// Measures a tree as it is read.
+    fn measured(
+        clamp: Clamp,
+        read: impl FnOnce(&mut FinestCells) -> Result<Octree, Error>,
+    ) -> Result<Self, Failure> {
         let values = Values { clamp, ..Values::default() };
         let mut cells = FinestCells { values, tally: Tally::new() };
-        let tree = read_octree(path, &mut cells)?;
+        let tree = read(&mut cells)?;
         let measures = Measures::of_octree(&cells.tally, !cells.values.has_more);
         let mut warnings = in_words(&tree.warnings);
         warnings.extend(measures.not_meaningful.map(|why| why.warning().to_owned()));

@@ -6,6 +6,7 @@ use crate::reading::in_words;
 use mean_information::map::Histogram;
 use mean_information::map::encoding::Percent;
 use mean_information_files::bags::{Change, MapSeries, Snapshot, read_bag};
+use mean_information_files::trajectory::seconds;
 use mean_information_files::{Counts, Options};
 use std::path::Path;
 
@@ -115,9 +116,4 @@ fn row(map: &Snapshot<'_>, jump: Option<u64>) -> Row {
         changed,
         warnings,
     }
-}
-
-/// Returns nanoseconds in seconds, rounded once.
-pub fn seconds(nanoseconds: u64) -> f64 {
-    format!("{nanoseconds}e-9").parse().unwrap_or(f64::NAN)
 }

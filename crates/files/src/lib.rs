@@ -45,13 +45,13 @@
 //! | [`npy`] | NumPy's arrays |
 //! | `npz` | archives of them |
 //! | [`gridmap`] | MRPT's grid maps |
-//! | [`pbstream`] | Cartographer's saved states |
 //! | `text` | lines of text and their fields |
 //! | `words` | words that a reader does not understand, counted |
 //! | [`octree`] | OctoMap's octrees, visited node by node |
 //! | [`trajectory`] | [`Trajectory`]: poses by their times; TUM text |
 //! | [`scans`] | [`ScanLog`](scans::ScanLog): logs of range scans, CARMEN's |
-//! | [`bags`] | bags of messages, and the maps in them |
+//! | [`pbstream`] | Cartographer's saved states: submaps, and scans |
+//! | [`bags`] | bags of messages, and the maps and scans in them |
 //! | [`particles`] | GMapping's logs of its particles |
 //! | `read` | files by the ending of their names |
 //!
@@ -87,8 +87,8 @@ pub use options::{ArrayEncoding, MAX_CELLS, MAX_COUNTED, Mode, Options, Semantic
 pub use read::{
     file_of, read_filter_log, read_filter_log_from, read_map, read_map_contents, read_map_contents_from,
     read_map_from, read_octree, read_octree_from, read_particles, read_particles_from, read_scans,
-    read_scans_from, read_submaps, read_submaps_from, read_trajectory, read_trajectory_from, read_weights,
-    read_weights_from,
+    read_scans_from, read_selected_scans, read_submaps, read_submaps_from, read_trajectory,
+    read_trajectory_from, read_weights, read_weights_from,
 };
 pub use source::{Disk, Memory, Opened, Source};
 pub use trajectory::{Association, Trajectory, tum};

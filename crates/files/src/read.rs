@@ -10,7 +10,7 @@ use crate::options::{MAX_COUNTED, Mode, Options};
 use crate::particles::FilterLog;
 use crate::pbstream::{self, Submap};
 use crate::ros::{self, Sink};
-use crate::scans::{ScanLog, ScanOptions};
+use crate::scans::{ScanLog, ScanOptions, Selection};
 use crate::source::{Disk, Opened, Source, open};
 use crate::trajectory::{Trajectory, tum};
 use crate::warning::Warning;
@@ -273,24 +273,63 @@ pub fn read_weights_from(source: &impl Source, path: &Path, options: &Options) -
         .map_err(|error| error.in_file(path))
 }
 
-/// Reads the log of range scans at `path` on the disk: as [`read_scans_from`].
+/// Reads the log of range scans at `path` on the disk: as [`read_selected_scans`], the only ones that it holds.
 ///
 /// # Errors
-/// As [`read_scans_from`].
+/// As [`read_selected_scans`].
 pub fn read_scans(path: &Path, options: &ScanOptions) -> Result<ScanLog, Error> {
-    read_scans_from(&Disk, path, options)
+    read_selected_scans(path, options, &Selection::default())
 }
 
-/// Reads the log of range scans at `path` of `source`, by its file name ending: a CARMEN log, `.log` or `.clf`.
+/// Reads the log of range scans at `path` of `source`, by its file name ending: a CARMEN log, `.log` or `.clf`, or the nodes
+/// of Cartographer's saved state, `.pbstream`.
 ///
 /// # Errors
-/// An [`Error`] naming the file, the line, what is wrong and what is allowed: as [`ScanLog::read_carmen`].
+/// An [`Error`] naming the file, the place, what is wrong and what is allowed: as [`ScanLog::read_carmen`] and
+/// [`pbstream::read_scans`].
 pub fn read_scans_from(source: &impl Source, path: &Path, options: &ScanOptions) -> Result<ScanLog, Error> {
+    scans(source, path, options, &Selection::default())
+}
+
+/// Reads those scans at `path` on the disk that `selection` names: of a log or a saved state, as [`read_scans_from`], or of a
+/// bag, as [`bags::read_scans`].
+///
+/// # Errors
+/// As [`read_scans_from`] and [`bags::read_scans`].
+pub fn read_selected_scans(
+    path: &Path,
+    options: &ScanOptions,
+    selection: &Selection,
+) -> Result<ScanLog, Error> {
+    if bags::is_bag(path) {
+        bags::read_scans(path, options, selection)
+    } else {
+        scans(&Disk, path, options, selection)
+    }
+}
+
+/// Reads the scans of a file.
+fn scans(
+    source: &impl Source,
+    path: &Path,
+    options: &ScanOptions,
+    selection: &Selection,
+) -> Result<ScanLog, Error> {
     let read = || {
         let name = path.file_name().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-        if ![".log", ".clf"].iter().any(|&ending| name.ends_with(ending)) {
+        let is = |endings: &[&str]| endings.iter().any(|&ending| name.ends_with(ending));
+        if is(&[".pbstream"]) {
+            let Opened { input, length } = open(source, path)?;
+            return pbstream::read_scans(input, length, options, selection);
+        }
+        if is(&[".mcap", ".db3", ".bag"]) {
+            return Err(Error::new(ErrorKind::Unsupported, "is a bag, which is read from a disk only"));
+        }
+        if !is(&[".log", ".clf"]) {
             let refused = Error::new(ErrorKind::Unsupported, "is no log of scans by its name");
-            return Err(refused.with_value(name).allowing("; allowed are ", "CARMEN logs: .log and .clf"));
+            let allowed =
+                "CARMEN logs, .log and .clf, bags, .mcap, .db3, .bag and their folders, and .pbstream";
+            return Err(refused.with_value(name).allowing("; allowed are ", allowed));
         }
         ScanLog::read_carmen(source.open(path)?.input, options)
     };

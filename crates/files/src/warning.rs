@@ -146,6 +146,33 @@ pub enum Warning {
         /// The number of scans passed over.
         count: u64,
     },
+    /// Scans have no beam and are passed over.
+    ScansWithoutBeams {
+        /// The number of scans.
+        count: u64,
+    },
+    /// Poses of a topic have the time of the pose before and are passed over.
+    PosesAtOneTime {
+        /// The number of poses passed over.
+        count: u64,
+    },
+    /// Transforms of TF are no poses and are passed over, as by tf2.
+    TransformsUnsound {
+        /// The number of transforms.
+        count: u64,
+    },
+    /// The beams of a scan are taken for beams of one time, which they are not.
+    BeamsApart {
+        /// The longest time from the first beam of a scan to its last, in seconds.
+        seconds: f64,
+    },
+    /// The laser is tilted on the robot, which the plane drops.
+    LaserTilted {
+        /// The angle between the plane of its beams and that of the robot, in degrees.
+        degrees: f64,
+    },
+    /// The scans of a saved state are what Cartographer keeps of them.
+    CloudsThinned,
     /// The last line of a text is cut short and left out.
     CutInLine {
         /// The line, from 1.

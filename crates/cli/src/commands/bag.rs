@@ -5,10 +5,11 @@ use crate::failure::Failure;
 use crate::metres::positive;
 use crate::output::{Files, Number, Record, Report, Value, Writing, short, table, with_notes};
 use crate::plots::{self, Drawing, Picture, SeriesPlot};
-use crate::series::{Row, Series, seconds};
+use crate::series::{Row, Series};
 use clap::Args;
 use mean_information_files::Options;
 use mean_information_files::bags::{MapTopic, map_topic};
+use mean_information_files::trajectory::seconds;
 use std::path::PathBuf;
 
 /// The arguments of `meaninfo bag`.

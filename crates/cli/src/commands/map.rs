@@ -10,7 +10,8 @@ use crate::progress::Progress;
 use crate::reading::{ReadingArguments, in_words};
 use crate::submaps;
 use clap::Args;
-use mean_information_files::{Map, octree, read_map, read_map_contents};
+use mean_information_files::bags::{self, AnyMapTopic, MapTopic, any_map_topic, last_map};
+use mean_information_files::{Map, Options, octree, read_map, read_map_contents};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
@@ -24,6 +25,10 @@ pub struct Arguments {
     /// Draw the information of every cell of the one map given to this PNG file.
     #[arg(long, value_name = "FILE.png")]
     heat_map: Option<PathBuf>,
+    /// The topic of a bag that is measured, of OccupancyGrid or of Octomap; if absent, the only one of OccupancyGrid that is
+    /// no costmap, or else the only one of Octomap.
+    #[arg(long)]
+    topic: Option<String>,
     /// Give each submap of a saved state a row, in place of one for all.
     #[arg(long)]
     submaps: bool,
@@ -46,6 +51,9 @@ impl Arguments {
                     self.maps.len()
                 )));
             }
+        }
+        if let Some(path) = self.maps.iter().find(|path| self.topic.is_some() && !bags::is_bag(path)) {
+            return Err(Failure::file(path, "is no bag; --topic needs bags, leave it out"));
         }
         let progress = Progress::new(self.maps.len());
         // Threads share the files; the results stay in order.
@@ -90,6 +98,9 @@ impl Arguments {
     /// Measures one map, or each submap of a saved state, and draws it if a picture is wanted.
     fn measure(&self, path: &Path) -> Result<Vec<MeasuredMap>, Failure> {
         let options = self.reading.options();
+        if bags::is_bag(path) {
+            return self.measure_bag(path, &options).map(|map| vec![map]);
+        }
         // Only a picture needs the cells themselves.
         if self.heat_map.is_some() {
             let map = read_map(path, &options)?;
@@ -112,6 +123,27 @@ impl Arguments {
         let map = read_map_contents(path, &options, &mut sums)?;
         let measures = Measures::of_contents(&map.cells, &sums).noticing(&map.warnings);
         Ok(vec![MeasuredMap::new(path, map, measures, None)])
+    }
+
+    /// Measures the last map of a bag, and draws it if a picture is wanted.
+    fn measure_bag(&self, path: &Path, options: &Options) -> Result<MeasuredMap, Failure> {
+        let wanted = MapTopic { name: self.topic.clone(), costmaps: false };
+        match any_map_topic(path, &wanted)? {
+            AnyMapTopic::Octrees(topic) if self.heat_map.is_some() => Err(Failure::file(
+                path,
+                format!("{topic} is of octrees, which have no picture; leave out --heat-map"),
+            )),
+            AnyMapTopic::Octrees(topic) => {
+                let tree = MeasuredTree::read_last(path, &topic, options, self.reading.clamp())?;
+                Ok(MeasuredMap::of_tree(path, tree))
+            }
+            AnyMapTopic::Grids(topic) => {
+                let map = last_map(path, &topic, options)?;
+                let measures = Measures::of(&map.cells).noticing(&map.warnings);
+                let picture = self.heat_map.as_ref().map(|_| drawn(path, &map, &measures)).transpose()?;
+                Ok(MeasuredMap::new(path, map, measures, picture))
+            }
+        }
     }
 }
 

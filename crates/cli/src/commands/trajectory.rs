@@ -8,26 +8,28 @@ use crate::plots::{self, Picture};
 use crate::progress::Progress;
 use crate::reading::in_words;
 use crate::trajectory::{
-    Candidate, Common, Comparison, Measured, Pictures, Refused, SensorModel, Setup, Used, Wanted, far_pose,
-    measure_all,
+    Candidate, Common, Comparison, Measured, Pictures, Recorded, Refused, SensorModel, Setup, Used, Wanted,
+    far_pose, measure_all,
 };
 use clap::{Args, ValueEnum};
 use mean_information::Error;
 use mean_information::scan::{Pose, ScanMap};
 use mean_information_files::scans::{Frame, NoReturn, ScanLog, ScanOptions, TimeField};
-use mean_information_files::{read_scans, read_trajectory};
+use mean_information_files::{bags, read_selected_scans, read_trajectory};
 use std::num::NonZero;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::thread;
 
 /// The arguments of `meaninfo trajectory`.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// The scans: a CARMEN log, .log or .clf, with FLASER or ROBOTLASER1.
+    /// The scans: a CARMEN log, .log or .clf, with FLASER or ROBOTLASER1; a bag, .mcap, .db3, .bag or the folder of one, with
+    /// LaserScan; or Cartographer's saved state, .pbstream.
     #[arg(value_name = "SCANS")]
     scans: PathBuf,
     /// The trajectories: TUM text, `time x y z qx qy qz qw` a line, on the clock of the scans. If none is given, those that
-    /// SCANS holds: "laser", the poses of the laser as a SLAM program may have corrected them, and "odometry".
+    /// SCANS holds: of a log "laser", the poses of the laser as a SLAM program may have corrected them, and "odometry"; of a
+    /// bag those of its frames; of a saved state "local", as scans were matched, and "global", after loops were closed.
     #[arg(value_name = "POSES")]
     poses: Vec<PathBuf>,
     /// Draw the mean information against time, one curve a trajectory, to this SVG or PNG file.
@@ -56,6 +58,8 @@ pub struct Arguments {
     sensor: Sensor,
     #[command(flatten)]
     association: Association,
+    #[command(flatten)]
+    recorded: Recorded,
     #[command(flatten)]
     writing: Writing,
 }
@@ -104,8 +108,8 @@ enum SensorName {
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Poses")]
 struct Association {
-    /// The pose of the laser on the robot whose poses POSES are, in metres and radians; if absent, as the log has it, or
-    /// else 0,0,0: POSES are those of the laser.
+    /// The pose of the laser on the robot whose poses POSES are, in metres and radians; if absent, as the log or /tf_static
+    /// has it, or else 0,0,0: POSES are those of the laser. Of a saved state, the laser in the tracking frame.
     #[arg(long, value_name = "X,Y,YAW", value_parser = mount)]
     mount: Option<Pose>,
     /// The longest time between two poses that are interpolated.
@@ -202,16 +206,19 @@ impl Arguments {
 
     /// Reads the scans.
     fn log(&self) -> Result<ScanLog, Failure> {
-        refuse_bags(&self.scans)?;
         let options = ScanOptions { maximum_range: self.sensor.max_range, time: self.association.time };
-        Ok(read_scans(&self.scans, &options)?)
+        let Association { mount, max_gap, .. } = self.association;
+        let selection = self.recorded.selection(&self.scans, self.poses.is_empty(), mount, max_gap)?;
+        Ok(read_selected_scans(&self.scans, &options, &selection)?)
     }
 
     /// Returns the pose of the laser on the robot, also in words.
     fn mount(&self, log: &ScanLog) -> Result<(Pose, String), Failure> {
         let in_words = |pose: &Pose| {
-            let [x, y] = pose.position();
-            format!("{x}, {y} m and {} rad on the robot", pose.theta())
+            let ([x, y], yaw) = (pose.position(), pose.theta());
+            // A quaternion rounds.
+            let [x, y, yaw] = [x, y, yaw].map(|number| (number * 1e9).round() / 1e9);
+            format!("{x}, {y} m and {yaw} rad on the robot")
         };
         let nowhere = Pose::new(0.0, 0.0, 0.0)?;
         Ok(match (self.association.mount, log.mount) {
@@ -238,9 +245,6 @@ impl Arguments {
             let name = file.display().to_string();
             Ok(Candidate { name, file: file.clone(), trajectory, warnings: in_words(&warnings) })
         };
-        if !self.poses.is_empty() {
-            return self.poses.iter().map(read).collect();
-        }
         let held = log.trajectories.iter().map(|held| {
             let trajectory = held.trajectory.clone();
             let trajectory = match held.frame {
@@ -251,14 +255,17 @@ impl Arguments {
                 name: held.name.clone(),
                 file: self.scans.clone(),
                 trajectory,
-                warnings: Vec::new(),
+                warnings: in_words(&held.warnings),
             })
         });
-        let held: Vec<_> = held.collect::<Result<_, Failure>>()?;
-        if held.is_empty() {
+        // Of a bag there are those that were asked for, of others all that they hold.
+        let is_asked_for = self.poses.is_empty() || bags::is_bag(&self.scans);
+        let held = held.filter(|_| is_asked_for);
+        let all: Vec<_> = held.chain(self.poses.iter().map(read)).collect::<Result<_, Failure>>()?;
+        if all.is_empty() {
             return Err(Failure::file(&self.scans, "holds no trajectory; give one, as TUM text, after it"));
         }
-        Ok(held)
+        Ok(all)
     }
 
     /// Measures the map of each trajectory.
@@ -309,24 +316,6 @@ fn unmapped(of: &Candidate, common: &Common<'_>, poses: &[Pose], refused: Refuse
         error => format!("the scan at {} s: {error}", common.scans[scan].time()),
     };
     Failure::file(&of.file, message)
-}
-
-/// Refuses by their names what holds scans and is not read yet.
-fn refuse_bags(path: &Path) -> Result<(), Failure> {
-    let name = path.file_name().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-    let kinds = [
-        (".mcap", "a ROS 2 bag"),
-        (".db3", "a ROS 2 bag"),
-        (".bag", "a ROS 1 bag"),
-        (".pbstream", "a state of Cartographer"),
-    ];
-    let kind = kinds.iter().find(|(ending, _)| name.ends_with(ending)).map(|&(_, kind)| kind);
-    match kind.or(path.is_dir().then_some("a folder")) {
-        Some(kind) => {
-            Err(Failure::file(path, format!("is {kind}, which is not read; give a CARMEN log, .log or .clf")))
-        }
-        None => Ok(()),
-    }
 }
 
 /// Reads a pose, `x,y,yaw`, in metres and radians.

@@ -6,7 +6,8 @@ use super::drawing::Drawing;
 use super::frame::{Side, curve, frame, legend};
 use super::marks::Marks;
 use crate::output::{decimal_exponent, short};
-use crate::series::{Series, seconds};
+use crate::series::Series;
+use mean_information_files::trajectory::seconds;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 

@@ -170,7 +170,7 @@ impl<'a> Delivery<'a> {
 }
 
 /// Says which message an error is of, and at which byte of it.
-fn of_message(topic: &Topic, number: u64, error: Error) -> Error {
+pub(super) fn of_message(topic: &Topic, number: u64, error: Error) -> Error {
     let byte = match error.place() {
         Some(&Place::Byte(byte)) => Some(byte),
         _ => None,

@@ -2,6 +2,7 @@
 
 use super::delivery::{Encoding, Message};
 use crate::error::{Error, ErrorKind, Place};
+use crate::trajectory::{Quaternion, Rigid, seconds};
 
 /// The fields of a message that are left.
 #[derive(Clone, Debug)]
@@ -109,14 +110,43 @@ impl<'a> Fields<'a> {
         utf8(text).map_err(|error| error.at(place))
     }
 
-    /// Passes over the header of a message: a number in ROS 1, the time, the name of the frame.
-    pub(super) fn header(&mut self) -> Result<(), Error> {
+    /// Takes the header of a message: in ROS 1 a number of its own, then the time and the name of the frame.
+    pub(super) fn header(&mut self) -> Result<Header<'a>, Error> {
         if self.is_ros1() {
             self.u32()?;
         }
-        let [_seconds, _nanoseconds] = [self.u32()?, self.u32()?];
-        self.text().map(drop)
+        let place = self.place(4);
+        // ROS 1 has no times before 1970, ROS 2 none after 2038.
+        let whole = if self.is_ros1() { i64::from(self.u32()?) } else { i64::from(self.i32()?) };
+        let time_ns = whole * 1_000_000_000 + i64::from(self.u32()?);
+        Ok(Header { time: seconds(time_ns), place, frame: self.frame()? })
     }
+
+    /// Takes the name of a frame, of which a slash before it is none.
+    pub(super) fn frame(&mut self) -> Result<&'a str, Error> {
+        self.text().map(|name| name.strip_prefix('/').unwrap_or(name))
+    }
+
+    /// Takes the next pose: three numbers of the position, four of the orientation.
+    pub(super) fn pose(&mut self) -> Result<Rigid, Error> {
+        let mut numbers = [0.0; 7];
+        for number in &mut numbers {
+            *number = self.f64()?;
+        }
+        let [x, y, z, turn @ ..] = numbers;
+        Ok(Rigid { position: [x, y, z], turn: Quaternion(turn) })
+    }
+}
+
+/// The header of a message.
+#[derive(Clone, Debug)]
+pub(super) struct Header<'a> {
+    /// The time, in seconds.
+    pub(super) time: f64,
+    /// The place of the time.
+    pub(super) place: Place,
+    /// The name of the frame.
+    pub(super) frame: &'a str,
 }
 
 /// Takes bytes as text.

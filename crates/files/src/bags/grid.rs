@@ -4,6 +4,7 @@ use super::delivery::Message;
 use super::fields::Fields;
 use crate::error::{Error, ErrorKind, Place};
 use crate::size::Size;
+use crate::trajectory::{Quaternion, Rigid};
 use mean_information::map::encoding::Percent;
 use mean_information::map::{Encoding, Geometry};
 
@@ -53,12 +54,8 @@ impl<'a> GridMessage<'a> {
         let [width, height] = [fields.u32()?, fields.u32()?];
         let size =
             Size::within(width.into(), height.into(), max_cells).map_err(|error| error.at(place.clone()))?;
-        let mut pose = [0.0; 7];
-        for number in &mut pose {
-            *number = fields.f64()?;
-        }
-        let [x, y, _, orientation @ ..] = pose;
-        let yaw = yaw(orientation);
+        let Rigid { position: [x, y, _], turn } = fields.pose()?;
+        let yaw = yaw(turn);
         let geometry = size.placed(resolution, [x, y], yaw).map_err(|error| error.at(place))?;
         let Size { width, height } = size;
         Ok(Self { width, height, geometry, cells: cells(&mut fields, [width, height])? })
@@ -98,8 +95,8 @@ impl<'a> GridUpdate<'a> {
 }
 
 /// Returns the yaw of an orientation; messages put together by hand often have none, but zeros.
-fn yaw(orientation: [f64; 4]) -> f64 {
-    if orientation == [0.0; 4] { 0.0 } else { crate::trajectory::yaw(orientation) }
+fn yaw(turn: Quaternion) -> f64 {
+    if turn.0 == [0.0; 4] { 0.0 } else { turn.yaw() }
 }
 
 /// Reads the cells, which must be as many as the size says, and percentages.

@@ -2,24 +2,33 @@
 //!
 //! A bag is read from its first byte to its last, without its index, so that one that was cut short gives all that is
 //! whole in it. Every reader hands the messages of the topics that a [`Visitor`] wants to it, in the order of the file,
-//! one at a time: memory holds one message. [`MapSeries`] makes maps of them.
+//! one at a time: memory holds one message. [`MapSeries`] makes maps of them, [`read_scans`] a log of scans with
+//! trajectories.
 
 mod container;
 mod delivery;
 mod fields;
 mod grid;
 mod mcap;
+mod octomap;
 mod read;
+mod recording;
 mod rosbag;
+mod scan;
+mod scans;
 mod series;
 #[cfg(feature = "sqlite")]
 mod sqlite;
+mod stamped;
 mod stream;
 mod topics;
+mod transforms;
 
 pub use delivery::{Encoding, Message, Topic, Visitor};
 pub use grid::{GridMessage, GridUpdate};
+pub use octomap::{last_octree, octree_of};
 pub use read::{is_bag, read_bag};
+pub use scans::{read_scans, scans_of};
 pub use series::{Change, MapSeries, Snapshot, last_map};
 pub use stream::read_stream;
-pub use topics::{MapTopic, is_costmap, map_topic};
+pub use topics::{AnyMapTopic, MapTopic, any_map_topic, is_costmap, map_topic};

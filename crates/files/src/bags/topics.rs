@@ -2,6 +2,7 @@
 
 use super::delivery::{Message, Topic, Visitor};
 use super::grid::GridMessage;
+use super::octomap::OCTOMAP;
 use super::read::read_bag;
 use crate::error::{Error, ErrorKind};
 use crate::options::Options;
@@ -32,9 +33,43 @@ pub fn is_costmap(name: &str) -> bool {
 /// An [`Error`] of kind [`ErrorKind::Choice`] that lists the topics of maps if none or several may be meant, or the one
 /// named carries costmaps and these are not allowed; or as [`read_bag`].
 pub fn map_topic(path: &Path, wanted: &MapTopic) -> Result<String, Error> {
-    let mut found = Found(Vec::new());
+    let mut found = Found::default();
     read_bag(path, &Options::default(), &mut found)?;
-    chosen(found.0, wanted).map_err(|error| error.in_file(path))
+    chosen(found.grids, wanted).map_err(|error| error.in_file(path))
+}
+
+/// A topic of a bag that carries maps of one of two kinds.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum AnyMapTopic {
+    /// One of type `nav_msgs/OccupancyGrid`, by its name.
+    Grids(String),
+    /// One of type `octomap_msgs/Octomap`, by its name.
+    Octrees(String),
+}
+
+/// Finds the topic of maps that is meant in the bag at `path`: one of octrees if it is named, or the only one where there is
+/// none of grids; else as [`map_topic`].
+///
+/// # Errors
+/// As [`map_topic`].
+pub fn any_map_topic(path: &Path, wanted: &MapTopic) -> Result<AnyMapTopic, Error> {
+    let mut found = Found::default();
+    read_bag(path, &Options::default(), &mut found)?;
+    let Found { grids, mut octrees } = found;
+    octrees.sort_unstable();
+    octrees.dedup();
+    let only = || octrees.first().filter(|_| octrees.len() == 1 && grids.iter().all(|name| is_costmap(name)));
+    let meant = match &wanted.name {
+        Some(name) => octrees.iter().find(|own| *own == name),
+        None => only(),
+    };
+    if let Some(name) = meant {
+        return Ok(AnyMapTopic::Octrees(name.clone()));
+    }
+    let listed =
+        if octrees.is_empty() { String::new() } else { format!("; of octrees: {}", octrees.join(", ")) };
+    let grid = chosen(grids, wanted).map_err(|error| error.followed_by(&listed).in_file(path))?;
+    Ok(AnyMapTopic::Grids(grid))
 }
 
 /// Chooses the topic that is meant among those of maps.
@@ -63,12 +98,18 @@ fn chosen(mut topics: Vec<String>, wanted: &MapTopic) -> Result<String, Error> {
 }
 
 /// Takes the names of the topics of maps and none of their messages.
-struct Found(Vec<String>);
+#[derive(Default)]
+struct Found {
+    grids: Vec<String>,
+    octrees: Vec<String>,
+}
 
 impl Visitor for Found {
     fn wants(&mut self, topic: &Topic) -> bool {
         if topic.kind == GridMessage::KIND {
-            self.0.push(topic.name.clone());
+            self.grids.push(topic.name.clone());
+        } else if topic.kind == OCTOMAP {
+            self.octrees.push(topic.name.clone());
         }
         false
     }

@@ -15,8 +15,8 @@ pub(super) struct Head {
     pub(super) binary: bool,
     /// Nodes have a colour.
     pub(super) coloured: bool,
-    /// The number of nodes.
-    pub(super) nodes: u64,
+    /// The number of nodes, where there is a head that says it.
+    pub(super) nodes: Option<u64>,
     /// The side of a finest cell, in metres.
     pub(super) resolution: f64,
     /// The number of bytes of the head.
@@ -51,7 +51,7 @@ impl Head {
                     return Ok(Self {
                         binary,
                         coloured: coloured.ok_or_else(|| missing("id"))?,
-                        nodes: nodes.ok_or_else(|| missing("size"))?,
+                        nodes: Some(nodes.ok_or_else(|| missing("size"))?),
                         resolution: resolution.ok_or_else(|| missing("res"))?,
                         bytes,
                     });
@@ -61,6 +61,18 @@ impl Head {
             }
         }
         Err(Error::new(ErrorKind::CutShort, "the file ends before the line `data`").at(Place::Byte(bytes)))
+    }
+
+    /// Returns what stands for a head where nodes come without one, from byte `bytes`: in messages of ROS.
+    ///
+    /// # Errors
+    /// An [`Error`] if the kind of tree is another than in a file, or a cell has no volume.
+    pub(super) fn of_message(id: &str, binary: bool, resolution: f64, bytes: u64) -> Result<Self, Error> {
+        let coloured = coloured(id.as_bytes())?;
+        if !is_side(resolution) {
+            return Err(Error::out_of_range("resolution", resolution, SIDES));
+        }
+        Ok(Self { binary, coloured, nodes: None, resolution, bytes })
     }
 }
 
@@ -75,25 +87,35 @@ fn is_binary(first: Line<'_>) -> Result<bool, Error> {
     Err(refused.allowing("; allowed are ", format!("`{FULL}` and `{BINARY}`")))
 }
 
-/// Tells whether the nodes of the kind of tree have colours.
+/// Tells whether the nodes of the kind of tree on this line have colours.
 fn is_coloured(line: Line<'_>, mut fields: Fields<'_>) -> Result<bool, Error> {
-    match fields.word() {
-        Some(b"OcTree") => Ok(false),
-        Some(b"ColorOcTree") => Ok(true),
-        word => {
-            let id = String::from_utf8_lossy(word.unwrap_or_default()).chars().take(40).collect::<String>();
-            let refused = line.refuse(ErrorKind::Unsupported, &format!("is of a tree `{id}`"));
+    coloured(fields.word().unwrap_or_default()).map_err(|error| line.blame(error))
+}
+
+/// Tells whether the nodes of a kind of tree have colours.
+fn coloured(id: &[u8]) -> Result<bool, Error> {
+    match id {
+        b"OcTree" => Ok(false),
+        b"ColorOcTree" => Ok(true),
+        other => {
+            let id = String::from_utf8_lossy(other).chars().take(40).collect::<String>();
+            let refused = Error::new(ErrorKind::Unsupported, format!("is of a tree `{id}`"));
             Err(refused.with_value(id).allowing(", allowed are ", "OcTree and ColorOcTree"))
         }
     }
 }
 
-/// Takes the side of a cell, in metres: that of the whole cube must have a volume that is a number, and a cell too.
+/// What a side may be.
+const SIDES: &str = "a positive number of metres, within the range of volumes";
+
+/// Takes the side of a cell, in metres.
 fn side(mut fields: Fields<'_>) -> Result<f64, Error> {
     let side = fields.number("res")?;
+    if is_side(side) { Ok(side) } else { Err(fields.out_of_range("res", side, SIDES)) }
+}
+
+/// Tells whether a number can be a side: that of the whole cube must have a volume that is a number, and a cell too.
+fn is_side(side: f64) -> bool {
     let whole = side * 65536.0;
-    if side > 0.0 && (side * side * side).is_normal() && (whole * whole * whole).is_finite() {
-        return Ok(side);
-    }
-    Err(fields.out_of_range("res", side, "a positive number of metres, within the range of volumes"))
+    side > 0.0 && (side * side * side).is_normal() && (whole * whole * whole).is_finite()
 }

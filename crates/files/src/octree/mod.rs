@@ -17,5 +17,6 @@ mod visitor;
 mod walk;
 
 pub use octant::{DEPTH, Octant};
+pub(crate) use tree::read_message;
 pub use tree::{Octree, has_name, read};
 pub use visitor::{Leaf, OctreeVisitor};

@@ -71,13 +71,26 @@ pub fn has_name(path: &Path) -> bool {
 /// ```
 pub fn read(mut input: impl BufRead, visitor: &mut impl OctreeVisitor) -> Result<Octree, Error> {
     let head = Head::read(&mut input)?;
+    read_nodes(input, head, visitor)
+}
+
+/// Reads the nodes of a tree, which end where `input` does.
+fn read_nodes(
+    mut input: impl BufRead,
+    head: Head,
+    visitor: &mut impl OctreeVisitor,
+) -> Result<Octree, Error> {
+    let is_empty = match head.nodes {
+        Some(nodes) => nodes == 0,
+        None => input.fill_buf()?.is_empty(),
+    };
     let mut walk = Walk::new(input, head, visitor);
-    if head.nodes > 0 {
+    if !is_empty {
         walk.whole()?;
     }
     let (nodes, byte) = (walk.nodes(), walk.byte());
-    if nodes != head.nodes {
-        let message = format!("has {nodes} nodes, not the {} that its head says", head.nodes);
+    if let Some(claimed) = head.nodes.filter(|&claimed| claimed != nodes) {
+        let message = format!("has {nodes} nodes, not the {claimed} that its head says");
         return Err(Error::new(ErrorKind::Format, message)
             .with_value(nodes.to_string())
             .at(Place::Byte(byte)));
@@ -89,4 +102,17 @@ pub fn read(mut input: impl BufRead, visitor: &mut impl OctreeVisitor) -> Result
     }
     let Head { binary, resolution, .. } = head;
     Ok(Octree { resolution, nodes, leaves, binary, warnings, files: Vec::new() })
+}
+
+/// Reads the nodes of a tree as messages of ROS have them, without a head, from byte `start` of the message.
+///
+/// # Errors
+/// An [`Error`] with the byte in the message: as [`read`].
+pub(crate) fn read_message(
+    nodes: &[u8],
+    start: u64,
+    (id, binary, resolution): (&str, bool, f64),
+    visitor: &mut impl OctreeVisitor,
+) -> Result<Octree, Error> {
+    read_nodes(nodes, Head::of_message(id, binary, resolution, start)?, visitor)
 }

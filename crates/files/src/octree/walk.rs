@@ -119,7 +119,7 @@ impl<'v, R: Read, V: OctreeVisitor> Walk<'v, R, V> {
 
     /// Counts a node, of which there may be no more than the head says; returns the byte where it begins.
     fn begin(&mut self) -> Result<u64, Error> {
-        if self.nodes == self.head.nodes {
+        if self.head.nodes == Some(self.nodes) {
             let (nodes, byte) = (self.nodes, self.byte);
             let message = format!("has more nodes than the {nodes} that its head says, at byte {byte}");
             return Err(Error::new(ErrorKind::Format, message).at(Place::Byte(byte)));
@@ -137,9 +137,10 @@ impl<'v, R: Read, V: OctreeVisitor> Walk<'v, R, V> {
                 Ok(bytes)
             }
             Err(error) => {
-                let (node, nodes, byte) = (self.nodes, self.head.nodes, self.byte);
+                let (node, byte) = (self.nodes, self.byte);
+                let of = self.head.nodes.map_or(String::new(), |nodes| format!(" of {nodes}"));
                 let error = Error::from(error).at(Place::Byte(byte));
-                Err(error.followed_by(&format!(", in node {node} of {nodes}, at byte {byte}")))
+                Err(error.followed_by(&format!(", in node {node}{of}, at byte {byte}")))
             }
         }
     }

@@ -1,9 +1,11 @@
 //! The records of a saved state.
 
-use super::fields::{array, fields_to_end};
+use super::fields::{Each, Value, array, fields_to_end};
+use super::nodes::Nodes;
 use super::submap::Submap;
 use crate::error::{Error, ErrorKind, Place};
 use crate::options::{MAX_COUNTED, Options};
+use crate::scans::{ScanLog, ScanOptions, Selection};
 use flate2::read::GzDecoder;
 use std::io::Read;
 
@@ -17,15 +19,60 @@ const BESIDE_CELLS: u64 = 1 << 30;
 /// # Errors
 /// An [`Error`] with the byte of the record if this is no saved state, is cut short, has submaps in three dimensions or of
 /// signed distances, or a grid whose cells are not as many as it says or more than the limit.
-pub fn read(mut input: impl Read, length: u64, options: &Options) -> Result<Vec<Submap>, Error> {
+pub fn read(input: impl Read, length: u64, options: &Options) -> Result<Vec<Submap>, Error> {
+    let max_cells = options.max_cells.unwrap_or(MAX_COUNTED);
+    let mut submaps = Vec::new();
+    let most = max_cells.saturating_mul(BYTES_PER_CELL).saturating_add(BESIDE_CELLS);
+    records(input, length, most, &mut |number, value, input| {
+        if number == 3 {
+            submaps.push(Submap::read(input, value.length()?, max_cells)?);
+        }
+        Ok(())
+    })?;
+    Ok(submaps)
+}
+
+/// Reads the scans of a saved state of `length` bytes: its nodes, each with the pose of the tracking frame as it was matched
+/// to the submaps ("local") and as the pose graph has it ("global"), both turned upright.
+///
+/// The ranges are those of the points of a node from where `selection` mounts the laser in the tracking frame; if it
+/// does not, from the origin of that frame, whence Cartographer draws its beams.
+///
+/// ```
+/// use mean_information_files::{ErrorKind, pbstream, scans::{ScanOptions, Selection}};
+/// let refused = pbstream::read_scans(&b"P5 3 2 255"[..], 10, &ScanOptions::default(), &Selection::default());
+/// assert_eq!(refused.unwrap_err().kind(), ErrorKind::Format);
+/// ```
+///
+/// # Errors
+/// An [`Error`] with the byte of the record if this is no saved state, is cut short, has scans in three dimensions or a
+/// node of another form than Cartographer's; of kind [`ErrorKind::Choice`] if it has several trajectories and `selection`
+/// names none of them; if there is no scan.
+pub fn read_scans(
+    input: impl Read,
+    length: u64,
+    options: &ScanOptions,
+    selection: &Selection,
+) -> Result<ScanLog, Error> {
+    let mut nodes = Nodes::default();
+    let most = MAX_COUNTED.saturating_mul(BYTES_PER_CELL).saturating_add(BESIDE_CELLS);
+    records(input, length, most, &mut |number, value, input| match (number, value) {
+        // The first record has a number in this place: the version of the format.
+        (1, Value::Length(length)) => nodes.read_graph(input, length),
+        (4, value) => nodes.read_node(input, value.length()?),
+        _ => Ok(()),
+    })?;
+    nodes.log(options, selection)
+}
+
+/// Hands the fields of all records, of at most `most` bytes each, to `each`.
+fn records(mut input: impl Read, length: u64, most: u64, each: &mut Each<'_>) -> Result<(), Error> {
     let mut magic = Vec::new();
     input.by_ref().take(8).read_to_end(&mut magic)?;
     if magic != MAGIC.to_le_bytes() {
         let refused = Error::new(ErrorKind::Format, "is no saved state of Cartographer by its first bytes");
         return Err(refused.at(Place::Byte(0)));
     }
-    let max_cells = options.max_cells.unwrap_or(MAX_COUNTED);
-    let mut submaps = Vec::new();
     let mut at = 8;
     while at < length {
         let of = |error: Error| error.preceded_by(&format!("record at byte {at}: ")).at(Place::Byte(at));
@@ -39,22 +86,9 @@ pub fn read(mut input: impl Read, length: u64, options: &Options) -> Result<Vec<
             return Err(of(Error::new(ErrorKind::CutShort, words).with_value(size.to_string())));
         };
         let mut record = (&mut input).take(size);
-        submaps.extend(read_record(&mut record, max_cells).map_err(of)?);
+        fields_to_end(&mut GzDecoder::new(&mut record), most, each).map_err(of)?;
         std::io::copy(&mut record, &mut std::io::sink()).map_err(|error| of(error.into()))?;
         at = end;
     }
-    Ok(submaps)
-}
-
-/// Reads the submap of a record, if it has one.
-fn read_record(record: &mut dyn Read, max_cells: u64) -> Result<Option<Submap>, Error> {
-    let most = max_cells.saturating_mul(BYTES_PER_CELL).saturating_add(BESIDE_CELLS);
-    let mut submap = None;
-    fields_to_end(&mut GzDecoder::new(record), most, &mut |number, value, input| {
-        if number == 3 {
-            submap = Some(Submap::read(input, value.length()?, max_cells)?);
-        }
-        Ok(())
-    })?;
-    Ok(submap)
+    Ok(())
 }

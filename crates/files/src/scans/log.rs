@@ -14,7 +14,8 @@ use std::path::PathBuf;
 pub struct ScanLog {
     /// The scans: one or more, their times ascend.
     pub scans: Vec<RangeScan>,
-    /// The trajectories that the log holds, by their names: of a CARMEN log "laser" and "odometry".
+    /// The trajectories that the log holds, by their names: of a CARMEN log "laser" and "odometry", of a saved state "local"
+    /// and "global", of a bag those of the frames and topics that were asked for.
     pub trajectories: Vec<RecordedTrajectory>,
     /// The pose of the laser in the frame of the robot, where the log says so.
     pub mount: Option<Pose>,
@@ -33,6 +34,8 @@ pub struct RecordedTrajectory {
     pub frame: Frame,
     /// The poses by their times.
     pub trajectory: Trajectory,
+    /// The signs that it means less than it seems.
+    pub warnings: Vec<Warning>,
 }
 
 /// The frame whose poses a trajectory has.
@@ -92,7 +95,8 @@ impl ScanLog {
             }
             if !times.is_empty() {
                 let trajectory = Trajectory::new(times, poses)?;
-                held.push(RecordedTrajectory { name: name.to_owned(), frame, trajectory });
+                let (name, warnings) = (name.to_owned(), Vec::new());
+                held.push(RecordedTrajectory { name, frame, trajectory, warnings });
             }
         }
         Ok(Self { scans, trajectories: held, mount: records.mount(), warnings, files: Vec::new() })

@@ -15,11 +15,13 @@
 //! those of ROS (REP 117) and of GMapping.
 
 pub mod carmen;
+mod kept;
 mod log;
 mod mount;
 mod options;
 mod range_scan;
 
+pub(crate) use kept::Kept;
 pub use log::{Frame, RecordedTrajectory, ScanLog};
-pub use options::{ScanOptions, TimeField};
+pub use options::{ScanOptions, Selection, TimeField};
 pub use range_scan::{Bearings, NoReturn, RangeScan, Reading};

@@ -1,5 +1,7 @@
 //! How logs of scans are read.
 
+use mean_information::scan::Pose;
+
 /// The options of the readers of scans. The default is everything as the file says.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ScanOptions {
@@ -7,6 +9,40 @@ pub struct ScanOptions {
     pub maximum_range: Option<f64>,
     /// The field of a CARMEN message that has its time.
     pub time: TimeField,
+}
+
+/// What is taken of a file that holds more than one log: a bag, a saved state. The default is what there is only one of, and
+/// the trajectories of the frames `map` and `odom`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Selection {
+    /// The topic of a bag's scans; the only one of type `sensor_msgs/LaserScan` if absent.
+    pub topic: Option<String>,
+    /// The frames of a bag's TF each of which gives a trajectory; `map` and `odom`, where TF has them, if absent.
+    pub frames: Option<Vec<String>>,
+    /// The topics of a bag each of which has a trajectory.
+    pub pose_topics: Vec<String>,
+    /// The frame of a bag's robot; if absent, the last that carries the laser by `/tf_static`.
+    pub base: Option<String>,
+    /// The pose of the laser on the robot, in place of TF's; of a saved state in the tracking frame.
+    pub mount: Option<Pose>,
+    /// The trajectory of a saved state, by its number; the only one if absent.
+    pub trajectory: Option<u64>,
+    /// The longest time, in seconds, between two poses of TF that are interpolated.
+    pub max_gap: f64,
+}
+
+impl Default for Selection {
+    fn default() -> Self {
+        Self {
+            topic: None,
+            frames: None,
+            pose_topics: Vec::new(),
+            base: None,
+            mount: None,
+            trajectory: None,
+            max_gap: 1.0,
+        }
+    }
 }
 
 /// The field of a CARMEN message that has its time. A message ends with `ipc_timestamp host logger_timestamp`.

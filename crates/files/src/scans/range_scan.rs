@@ -115,6 +115,15 @@ impl RangeScan {
         Self { odometry: Some(pose), ..self }
     }
 
+    /// Returns the scan of a laser that is mounted upside down: its bearings turn the other way.
+    pub(crate) fn upside_down(mut self) -> Self {
+        self.bearings = match self.bearings {
+            Bearings::Even { start, increment } => Bearings::Even { start: -start, increment: -increment },
+            Bearings::Each(bearings) => Bearings::Each(bearings.iter().map(|bearing| -bearing).collect()),
+        };
+        self
+    }
+
     /// Returns the time, in seconds, on the clock of the log.
     pub fn time(&self) -> f64 {
         self.time

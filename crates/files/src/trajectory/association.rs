@@ -49,7 +49,7 @@ impl Trajectory {
 }
 
 /// Returns the part of the way from `start` to `end` at which `time` is; halved, as a difference may overflow.
-fn part(time: f64, start: f64, end: f64) -> f64 {
+pub(crate) fn part(time: f64, start: f64, end: f64) -> f64 {
     (0.5 * time - 0.5 * start) / (0.5 * end - 0.5 * start)
 }
 

@@ -10,9 +10,14 @@
 mod association;
 mod poses;
 mod quaternion;
+mod rigid;
+mod tilts;
 pub mod tum;
 
 pub use association::Association;
-pub use poses::Trajectory;
+pub(crate) use association::part;
 pub(crate) use poses::check_time;
-pub(crate) use quaternion::yaw;
+pub use poses::{Trajectory, seconds};
+pub(crate) use quaternion::Quaternion;
+pub(crate) use rigid::Rigid;
+pub(crate) use tilts::Tilts;

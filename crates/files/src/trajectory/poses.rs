@@ -84,6 +84,16 @@ impl Trajectory {
     }
 }
 
+/// Returns nanoseconds in seconds, rounded once: the nearest float.
+///
+/// ```
+/// use mean_information_files::trajectory::seconds;
+/// assert_eq!(seconds(1_700_000_000_250_000_001_i64), 1_700_000_000.25);
+/// ```
+pub fn seconds(nanoseconds: impl Into<i128>) -> f64 {
+    format!("{}e-9", nanoseconds.into()).parse().unwrap_or(f64::NAN)
+}
+
 /// Refuses a time, in seconds, that is not finite or not after the one before.
 pub(crate) fn check_time(time: f64, before: Option<f64>) -> Result<(), Error> {
     if !time.is_finite() {

@@ -2,6 +2,7 @@
 
 use super::poses::{Trajectory, check_time};
 use super::quaternion::Quaternion;
+use super::tilts::Tilts;
 use crate::error::{Error, ErrorKind};
 use crate::text::{Line, Lines};
 use crate::warning::Warning;
@@ -10,12 +11,6 @@ use std::io::{self, BufRead, Write};
 
 /// The names of the fields, for messages.
 const FIELDS: [&str; 8] = ["time", "x", "y", "z", "qx", "qy", "qz", "qw"];
-
-/// How far the length of a quaternion may be from 1: two decimals, rounded.
-const NORM_TOLERANCE: f64 = 0.02;
-
-/// The tilt in degrees above which a pose is counted.
-const FLAT: f64 = 1.0;
 
 /// Reads a trajectory. Empty lines and lines that begin with `#` are passed over; fields are parted by any white space;
 /// quaternions whose length is within 0.02 of 1 are normalised.
@@ -44,13 +39,13 @@ pub fn read(input: impl BufRead) -> Result<(Trajectory, Vec<Warning>), Error> {
     let mut lines = Lines::new(input);
     let (mut times, mut poses) = (Vec::new(), Vec::new());
     let mut warnings = Vec::new();
-    let (mut tilted, mut greatest) = (0, 0.0_f64);
+    let mut tilts = Tilts::default();
     while let Some(line) = lines.next()? {
         let mut fields = line.fields();
         if fields.word().is_none_or(|word| word.starts_with(b"#")) {
             continue;
         }
-        let (time, pose, tilt) = match stamped(line) {
+        let (time, pose, turn) = match stamped(line) {
             Ok(read) => read,
             Err(error) if !line.ended && error.kind() == ErrorKind::Format => {
                 warnings.push(Warning::CutInLine { line: line.number });
@@ -59,10 +54,7 @@ pub fn read(input: impl BufRead) -> Result<(Trajectory, Vec<Warning>), Error> {
             Err(error) => return Err(error),
         };
         check_time(time, times.last().copied()).map_err(|error| line.blame(error))?;
-        if tilt > FLAT {
-            tilted += 1;
-            greatest = greatest.max(tilt);
-        }
+        tilts.see(turn);
         times.push(time);
         poses.push(pose);
     }
@@ -70,14 +62,12 @@ pub fn read(input: impl BufRead) -> Result<(Trajectory, Vec<Warning>), Error> {
         let refused = Error::new(ErrorKind::Format, "holds no pose");
         return Err(refused.allowing("; allowed are ", "lines of `time x y z qx qy qz qw`"));
     }
-    if tilted > 0 {
-        warnings.push(Warning::TiltDropped { count: tilted, greatest_degrees: greatest });
-    }
+    warnings.extend(tilts.warning());
     Ok((Trajectory::new(times, poses)?, warnings))
 }
 
-/// Reads the time of a line, its pose, and the tilt that the plane drops.
-fn stamped(line: Line<'_>) -> Result<(f64, Pose, f64), Error> {
+/// Reads the time of a line, its pose, and its orientation, of which the plane drops the tilt.
+fn stamped(line: Line<'_>) -> Result<(f64, Pose, Quaternion), Error> {
     let mut fields = line.fields();
     let mut values = [0.0; 8];
     for (value, name) in values.iter_mut().zip(FIELDS) {
@@ -89,11 +79,10 @@ fn stamped(line: Line<'_>) -> Result<(f64, Pose, f64), Error> {
     }
     let [time, x, y, _, turn @ ..] = values;
     let turn = Quaternion(turn);
-    let norm = turn.norm();
-    if !((1.0 - NORM_TOLERANCE)..=(1.0 + NORM_TOLERANCE)).contains(&norm) {
-        return Err(fields.out_of_range("the length of the quaternion", norm, "1, within 0.02"));
+    if !turn.is_normal() {
+        return Err(fields.out_of_range("the length of the quaternion", turn.norm(), "1, within 0.02"));
     }
-    Ok((time, Pose::new(x, y, turn.yaw())?, turn.tilt()))
+    Ok((time, Pose::new(x, y, turn.yaw())?, turn))
 }
 
 /// Writes a trajectory, with the lines of `comment` before it. Times and positions are read back as they are; the yaw goes

@@ -127,6 +127,27 @@ impl fmt::Display for Warning {
             Self::ScansAtOneTime { count } => {
                 write!(f, "{count} scans have the time of the scan before and are passed over")
             }
+            Self::ScansWithoutBeams { count } => write!(f, "{count} scans have no beam and are passed over"),
+            Self::PosesAtOneTime { count } => {
+                write!(f, "{count} poses have the time of the pose before and are passed over")
+            }
+            Self::TransformsUnsound { count } => write!(
+                f,
+                "{count} transforms are no poses (not finite, no unit quaternion, no frame) and passed over, as by tf2"
+            ),
+            Self::BeamsApart { seconds } => write!(
+                f,
+                "the beams of a scan are up to {seconds:.3} s apart (time_increment), which is not corrected: all are taken \
+                 to be of the time of the first"
+            ),
+            Self::LaserTilted { degrees } => {
+                write!(f, "the laser is tilted by {degrees:.1} degrees: dropped, as scans lie in the plane")
+            }
+            Self::CloudsThinned => write!(
+                f,
+                "the scans are the points that Cartographer keeps, thinned out and without beams that did not return; beams \
+                 are taken from the origin of the tracking frame, as Cartographer inserts them"
+            ),
             Self::CutInLine { line } => write!(f, "line {line}, the last, is cut short and left out"),
             Self::TiltDropped { count, greatest_degrees } => write!(
                 f,

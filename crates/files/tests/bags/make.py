@@ -4,8 +4,9 @@
     python3 -m venv VENV && VENV/bin/pip install rosbags==0.11.9 && VENV/bin/python crates/files/tests/bags/make.py
 
 Each holds the same: maps of 13 x 7 cells of 0.05 m on /map, whose values a small generator gives, the third as the
-second again, the sixth of 5 x 9 cells; an update of 3 x 2 cells at column 4 and row 1 after the second map; a costmap;
-and a text on /talk, of which nobody knows the type. `expected.json` has what NumPy counts of each map.
+second again, every sixth of 5 x 9 cells; an update of 3 x 2 cells at column 4 and row 1 after the second map, so that 50
+maps are shown; a costmap beside the first six; and a text on /talk, of which nobody knows the type. `expected.json` has
+what NumPy counts of each map.
 """
 import json
 import shutil
@@ -61,7 +62,7 @@ def messages(store, ros1):
             origin=types["geometry_msgs/msg/Pose"](point, turn))
         return types[MAP](header(time), info, data)
 
-    sizes = [(13, 7)] * 5 + [(5, 9)]
+    sizes = ([(13, 7)] * 5 + [(5, 9)]) * 8 + [(5, 9)]
     for index, (width, height) in enumerate(sizes):
         time = START + index * 2_000_000_000
         data = cells(7 + min(index, 1) if index < 3 else 7 + index, width * height)
@@ -69,6 +70,8 @@ def messages(store, ros1):
             data[:] = now
         now = data.copy()
         yield time, "/map", MAP, grid(time, width, height, data), (width, height, now)
+        if index > 5:
+            continue
         yield time + 1, "/talk", TEXT, types[TEXT]("hällo"), None
         yield time + 2, "/global_costmap/costmap", MAP, grid(time, 2, 1, np.array([99, 0], np.int8)), None
         if index == 1:
@@ -87,6 +90,11 @@ def expected(rows):
             found.append({"time_ns": time, "width": width, "height": height,
                           "values": [[int(v), int(n)] for v, n in zip(values, counts)]})
     return found
+
+
+def rows(maps):
+    """A line of JSON for each map."""
+    return "[\n" + ",\n".join(json.dumps(row) for row in maps) + "\n]\n"
 
 
 def write(writer, store, ros1):
@@ -139,7 +147,7 @@ def main():
             writer.set_compression(CompressionMode.STORAGE, CompressionFormat.ZSTD)
         write(writer, ros2, False)
     lz4_chunks(FOLDER / "maps_mcap/maps_mcap.mcap", FOLDER / "maps_mcap_lz4.mcap")
-    (FOLDER / "expected.json").write_text(json.dumps(expected(messages(ros2, False)), indent=1) + "\n")
+    (FOLDER / "expected.json").write_text(rows(expected(messages(ros2, False))))
 
 
 if __name__ == "__main__":

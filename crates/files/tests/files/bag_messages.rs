@@ -2,69 +2,25 @@
 
 use mean_information_files::bags::{Change, MapSeries, read_stream};
 use mean_information_files::{Error, ErrorKind, Options, Place, Warning};
+use mean_information_test_support::formats::bag::{Writer, mcap_of, record, text};
 
-const KIND: &str = "nav_msgs/msg/OccupancyGrid";
-const UPDATE: &str = "map_msgs/msg/OccupancyGridUpdate";
-
-fn text(text: &[u8]) -> Vec<u8> {
-    [&(text.len() as u32).to_le_bytes(), text].concat()
-}
-
-fn record(kind: u8, data: &[&[u8]]) -> Vec<u8> {
-    let data = data.concat();
-    [&[kind][..], &(data.len() as u64).to_le_bytes(), &data].concat()
-}
+const TOPICS: [(u16, &str, &str); 2] =
+    [(7, "/map", "nav_msgs/msg/OccupancyGrid"), (8, "/map_updates", "map_msgs/msg/OccupancyGridUpdate")];
 
 /// A bag whose topic 7 is `/map` and 8 `/map_updates`; of the messages, the topic and the bytes.
 fn mcap(encoding: &str, messages: &[(u16, Vec<u8>)]) -> Vec<u8> {
-    let mut bytes = b"\x89MCAP0\r\n".to_vec();
-    for (id, name, kind) in [(7_u16, "/map", KIND), (8, "/map_updates", UPDATE)] {
-        bytes.extend(record(3, &[&id.to_le_bytes(), &text(kind.as_bytes()), &text(b"ros2msg"), &text(b"")]));
-        let [name, encoding] = [name, encoding].map(|name| text(name.as_bytes()));
-        bytes.extend(record(4, &[&id.to_le_bytes(), &id.to_le_bytes(), &name, &encoding, &[0; 4]]));
-    }
-    for (id, message) in messages {
-        bytes.extend(record(5, &[&id.to_le_bytes(), &[0; 4], &2500_u64.to_le_bytes(), &[0; 8], message]));
-    }
-    bytes.extend(record(15, &[&[0; 4]]));
-    bytes
+    mcap_of(encoding, &TOPICS, messages)
 }
 
-/// Writes fields as CDR or, without its four bytes of head, as ROS 1.
-struct Writer {
-    bytes: Vec<u8>,
-    big_endian: bool,
-    ros1: bool,
+/// Writes the fields of maps.
+trait MapWriter {
+    fn grid(self, resolution: f32, size: [u32; 2], count: u32, cells: &[u8]) -> Vec<u8>;
+    fn update(self, at: [i32; 2], size: [u32; 2], cells: &[u8]) -> Vec<u8>;
 }
 
-impl Writer {
-    fn new(big_endian: bool, ros1: bool) -> Self {
-        let bytes = if ros1 { vec![] } else { vec![0, u8::from(!big_endian), 0, 0] };
-        let mut writer = Self { bytes, big_endian, ros1 };
-        if ros1 {
-            writer.number(9_u32.to_le_bytes());
-        }
-        for x in [5_u32, 6] {
-            writer.number(x.to_le_bytes());
-        }
-        let name: &[u8] = if ros1 { b"odom" } else { b"odom\0" };
-        writer.number((name.len() as u32).to_le_bytes());
-        writer.bytes.extend(name);
-        writer
-    }
-
-    fn number<const N: usize>(&mut self, mut bytes: [u8; N]) {
-        if !self.ros1 {
-            let end = 4 + (self.bytes.len() - 4).next_multiple_of(N);
-            self.bytes.resize(end, 0xee);
-        }
-        if self.big_endian {
-            bytes.reverse();
-        }
-        self.bytes.extend(bytes);
-    }
-
+impl MapWriter for Writer {
     fn grid(mut self, resolution: f32, [width, height]: [u32; 2], count: u32, cells: &[u8]) -> Vec<u8> {
+        self.header([5, 6], "odom");
         for x in [1_u32, 2] {
             self.number(x.to_le_bytes());
         }
@@ -72,15 +28,14 @@ impl Writer {
         for x in [width, height] {
             self.number(x.to_le_bytes());
         }
-        for x in [0.5_f64, -2.0, 0.0, 0.0, 0.0, 0.0, 0.0] {
-            self.number(x.to_le_bytes());
-        }
+        self.doubles(&[0.5, -2.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
         self.number(count.to_le_bytes());
         self.bytes.extend(cells);
         self.bytes
     }
 
     fn update(mut self, [x, y]: [i32; 2], [width, height]: [u32; 2], cells: &[u8]) -> Vec<u8> {
+        self.header([5, 6], "odom");
         for x in [x, y] {
             self.number(x.to_le_bytes());
         }

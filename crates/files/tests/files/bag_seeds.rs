@@ -12,7 +12,11 @@ pub(crate) fn bag() -> Vec<(&'static str, Vec<u8>)> {
         ("zstd", "maps_mcap_zstd/maps_mcap_zstd.mcap"),
         ("lz4_2", "maps_mcap_lz4.mcap"),
     ];
-    kinds.map(|(name, file)| (name, fs::read(crate::bags::bag(file)).unwrap())).to_vec()
+    let mut seeds = kinds.map(|(name, file)| (name, fs::read(crate::bags::bag(file)).unwrap())).to_vec();
+    seeds.push(("scans_1", crate::scan_bag::seed("ros1", true)));
+    seeds.push(("scans_2", crate::scan_bag::seed("cdr", false)));
+    seeds.push(("octree_bag", crate::bag_trees::seed()));
+    seeds
 }
 
 pub(crate) fn pbstream() -> Vec<(&'static str, Vec<u8>)> {
@@ -25,5 +29,6 @@ pub(crate) fn pbstream() -> Vec<(&'static str, Vec<u8>)> {
         ("plain", whole),
         ("distances", state(&[submap(&grid(&[7; 6], &message(5, &[])))])),
         ("claims_more", claims_more),
+        ("nodes", crate::pbstream_scans::seed()),
     ]
 }

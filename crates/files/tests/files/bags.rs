@@ -92,7 +92,7 @@ fn every_container_gives_the_counts_of_numpy() {
             (number("time_ns"), [number("width") as usize, number("height") as usize], values)
         })
         .collect();
-    assert_eq!(expected.len(), 7);
+    assert_eq!(expected.len(), 50);
     for name in bags() {
         let rows = rows_of(&bag(name));
         let found: Vec<_> = rows.iter().map(|row| (row.0, row.1, row.2.clone())).collect();
@@ -133,7 +133,7 @@ fn a_cut_bag_is_read_to_its_last_whole_message() {
         let bytes = fs::read(bag(name)).unwrap();
         let whole = rows_in(&bytes).0;
         let mut most = 0;
-        for length in (13..bytes.len()).step_by(11) {
+        for length in (13..bytes.len()).step_by(bytes.len() / 701) {
             let (rows, warnings) = rows_in(&bytes[..length]);
             assert!(rows.len() >= most && rows == whole[..rows.len()], "{name} to byte {length}");
             most = rows.len();

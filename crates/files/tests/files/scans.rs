@@ -291,7 +291,7 @@ fn a_log_without_scans_says_what_it_holds() {
     let open = |name: &str| read_scans_from(&files, Path::new(name), &ScanOptions::default());
     assert_eq!(open("room.log").unwrap().files, [Path::new("room.log")]);
     let refused = open("room.bag").unwrap_err();
-    let words = "room.bag: is no log of scans by its name; allowed are CARMEN logs: .log and .clf";
+    let words = "room.bag: is a bag, which is read from a disk only";
     assert_eq!((refused.kind(), refused.to_string().as_str()), (ErrorKind::Unsupported, words));
     assert_eq!(open("hall.clf").unwrap_err().kind(), ErrorKind::NotFound);
 }

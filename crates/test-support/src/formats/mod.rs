@@ -1,5 +1,6 @@
 //! Maps made on the spot, whole or broken, and folders for them.
 
+pub mod bag;
 mod folder;
 mod gridmap;
 mod map;

@@ -49,3 +49,37 @@ pub fn state(records: &[Vec<u8>]) -> Vec<u8> {
     }
     bytes
 }
+
+/// Writes a field that is a number in double precision.
+pub fn double(number: u64, value: f64) -> Vec<u8> {
+    [varint(number << 3 | 1), value.to_le_bytes().to_vec()].concat()
+}
+
+/// Writes a pose: its position, and its orientation `[x, y, z, w]`.
+pub fn rigid(number: u64, position: [f64; 3], turn: [f64; 4]) -> Vec<u8> {
+    let numbers = |values: &[f64]| -> Vec<u8> {
+        (1..).zip(values).flat_map(|(number, &value)| double(number, value)).collect()
+    };
+    message(number, &[&message(1, &[&numbers(&position)]), &message(2, &[&numbers(&turn)])])
+}
+
+/// Writes a compressed cloud that claims so many points.
+pub fn cloud(number: u64, points: u64, data: &[i32]) -> Vec<u8> {
+    let data: Vec<u8> = data.iter().flat_map(|&number| varint(i64::from(number).cast_unsigned())).collect();
+    message(number, &[&integer(1, points), &message(3, &[&data])])
+}
+
+/// Writes a record with a node, by the numbers of its trajectory and of itself, at a time in steps of 100 ns since the year 1.
+pub fn node([trajectory, index]: [u64; 2], time: u64, parts: &[&[u8]]) -> Vec<u8> {
+    let id = message(1, &[&integer(1, trajectory), &integer(2, index)]);
+    message(4, &[&id, &message(5, &[&integer(1, time), &parts.concat()])])
+}
+
+/// Writes a record with a pose graph of one trajectory: of each node the number and the pose.
+pub fn graph(trajectory: u64, nodes: &[(u64, [f64; 3], [f64; 4])]) -> Vec<u8> {
+    let nodes: Vec<u8> = nodes
+        .iter()
+        .flat_map(|&(index, position, turn)| message(1, &[&rigid(5, position, turn), &integer(7, index)]))
+        .collect();
+    message(1, &[&message(4, &[&nodes, &integer(3, trajectory)])])
+}

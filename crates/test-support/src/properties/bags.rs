@@ -1,6 +1,9 @@
 //! Bags and saved states: each is read or refused, and a bag that was cut is read up to the cut.
 
-use mean_information_files::bags::{MapSeries, Message, Topic, Visitor, read_stream};
+use super::scans::{check_scan, check_trajectory};
+use mean_information_files::bags::{MapSeries, Message, Topic, Visitor, octree_of, read_stream, scans_of};
+use mean_information_files::octree::{Leaf, Octant, OctreeVisitor};
+use mean_information_files::scans::{ScanLog, ScanOptions, Selection};
 use mean_information_files::{Error, Options, pbstream as states};
 
 /// Small, so that a claim is soon above it.
@@ -39,7 +42,8 @@ fn messages(bytes: &[u8]) -> Vec<Taken> {
     all.0
 }
 
-/// Reads a bag, whole and cut in the middle: all messages before the cut are the same. Then the maps of a topic.
+/// Reads a bag, whole and cut in the middle: all messages before the cut are the same. Then the maps of a topic, its scans
+/// with their trajectories, and its octree.
 pub fn bag(bytes: &[u8]) {
     let whole = messages(bytes);
     let cut = messages(&bytes[..bytes.len() - bytes.len() / 3]);
@@ -53,10 +57,52 @@ pub fn bag(bytes: &[u8]) {
     if let Err(error) = read_stream(bytes, bytes.len() as u64, &options(), &mut series) {
         assert!(!error.to_string().is_empty());
     }
+    let read = |visitor: &mut dyn Visitor| read_stream(bytes, bytes.len() as u64, &options(), visitor);
+    let topics = ["/odom", "/pose", "/amcl_pose"].map(str::to_owned).to_vec();
+    for pose_topics in [Vec::new(), topics] {
+        let frames = (!pose_topics.is_empty()).then(|| vec!["odom".to_owned()]);
+        let selection = Selection { frames, pose_topics, ..Selection::default() };
+        check_log(scans_of(read, &ScanOptions::default(), &selection));
+    }
+    let mut leaves = Leaves(0);
+    match octree_of(read, "/octomap", &mut leaves) {
+        Ok(tree) => assert!(tree.leaves == leaves.0 && tree.leaves <= tree.nodes && tree.resolution > 0.0),
+        Err(error) => assert!(!error.to_string().is_empty()),
+    }
 }
 
-/// Reads a saved state: it is refused, or every cell of its submaps is counted once and is a probability.
+/// Counts the leaves of a tree.
+struct Leaves(u64);
+
+impl OctreeVisitor for Leaves {
+    fn leaf(&mut self, _: Octant, _: Leaf) {
+        self.0 += 1;
+    }
+}
+
+/// Checks the scans and the trajectories of a log, if there is one.
+fn check_log(log: Result<ScanLog, Error>) {
+    match log {
+        Ok(log) => {
+            assert!(!log.scans.is_empty() && log.times().is_sorted_by(|before, after| before < after));
+            log.scans.iter().for_each(check_scan);
+            for held in &log.trajectories {
+                check_trajectory(&held.trajectory);
+                assert!(!held.name.is_empty());
+            }
+            assert!(log.warnings.iter().all(|warning| !warning.to_string().is_empty()));
+        }
+        Err(error) => assert!(!error.to_string().is_empty()),
+    }
+}
+
+/// Reads a saved state: it is refused, or every cell of its submaps is counted once and is a probability, and its scans and
+/// their poses are what scans and poses are.
 pub fn pbstream(bytes: &[u8]) {
+    for trajectory in [None, Some(2)] {
+        let selection = Selection { trajectory, ..Selection::default() };
+        check_log(states::read_scans(bytes, bytes.len() as u64, &ScanOptions::default(), &selection));
+    }
     match states::read(bytes, bytes.len() as u64, &options()) {
         Ok(submaps) => {
             for submap in submaps {

@@ -58,7 +58,7 @@ fn nan(x: f64) -> u64 {
     if x.is_nan() { u64::MAX } else { 0 }
 }
 
-fn check_scan(record: &RangeScan) {
+pub(super) fn check_scan(record: &RangeScan) {
     let [least, greatest] = record.limits();
     let (mut returned, mut without) = (0, 0);
     for reading in record.readings() {
@@ -101,7 +101,7 @@ pub fn trajectory(bytes: &[u8]) {
     }
 }
 
-fn check_trajectory(trajectory: &Trajectory) {
+pub(super) fn check_trajectory(trajectory: &Trajectory) {
     let [start, end] = trajectory.span();
     assert!(trajectory.times().is_sorted_by(|before, after| before < after));
     assert_eq!(trajectory.pose_at(start.next_down(), f64::INFINITY), None);

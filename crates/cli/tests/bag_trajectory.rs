@@ -1,0 +1,184 @@
+//! `meaninfo trajectory` on bags and saved states: the numbers of the logs that they were made of.
+
+mod common;
+
+use common::*;
+use mean_information_files::scans::{Bearings, RangeScan, ScanOptions, carmen};
+use mean_information_files::{read_scans, tum};
+use mean_information_test_support::formats::shared_data;
+use serde_json::Value;
+use std::path::Path;
+
+const MAPS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../maps");
+/// The mount of the laser in the bags, as `make_scans.py` has it.
+const MOUNT: &str = "0.25,0.125,0.5";
+
+fn bag(name: &str) -> String {
+    format!("{}/../files/tests/bags/{name}", env!("CARGO_MANIFEST_DIR"))
+}
+
+fn rows(arguments: &[&str]) -> Vec<Value> {
+    let text = stdout(&[&["trajectory"], arguments, &["--resolution", "0.1", "--format", "json"]].concat());
+    serde_json::from_str(&text).unwrap()
+}
+
+fn written(folder: &Folder, name: &str, bytes: &[u8]) -> String {
+    folder.write(name, bytes).to_str().unwrap().to_owned()
+}
+
+/// Writes every second scan of the sample's log, as the bags have them: each number in `single` precision, or as it is.
+fn log(folder: &Folder, single: bool) -> String {
+    let log = read_scans(&Path::new(MAPS).join("room.log"), &ScanOptions::default()).unwrap();
+    let in_single = |scan: &RangeScan| {
+        let rounded = |x: f64| if single { f64::from(x as f32) } else { x };
+        let &Bearings::Even { start, increment } = scan.bearings() else { panic!("{scan:?}") };
+        let bearings = Bearings::Even { start: rounded(start), increment: rounded(increment) };
+        let ranges = scan.ranges().iter().map(|&range| rounded(range)).collect();
+        let scan_in_single =
+            RangeScan::new(scan.time(), bearings, ranges, scan.limits().map(rounded)).unwrap();
+        scan_in_single.with_laser(*scan.laser().unwrap()).with_odometry(*scan.odometry().unwrap())
+    };
+    let scans: Vec<_> = log.scans.iter().step_by(2).map(in_single).collect();
+    let mut text = Vec::new();
+    carmen::write(&scans, "", &mut text).unwrap();
+    written(folder, "half.log", &text)
+}
+
+/// The numbers of a row that do not depend on its name.
+fn numbers(row: &Value) -> Value {
+    let mut row = row.clone();
+    let entries = row.as_object_mut().unwrap();
+    for key in ["poses", "scans_without_pose", "warnings"] {
+        entries.remove(key);
+    }
+    row
+}
+
+/// Asserts that two rows are of the same cells, and their numbers alike to rounding.
+fn assert_alike(found: &Value, expected: &Value) {
+    for key in
+        ["scans", "scans_used", "beams", "width", "height", "observed", "free", "occupied", "revisited"]
+    {
+        assert_eq!(found[key], expected[key], "{key}: {found} {expected}");
+    }
+    for key in ["mean_information", "agreement", "entropy_bits"] {
+        let [a, b] = [found, expected].map(|row| row[key].as_f64().unwrap());
+        assert!((a - b).abs() <= 1e-12 * a.abs(), "{key}: {a} {b}");
+    }
+}
+
+/// The log says where the laser was, the bag where the robot was and the laser on it: poses differ by roundings, and the
+/// ranges are those in single precision.
+#[test]
+fn a_bag_of_the_sample_has_the_numbers_of_its_log() {
+    let folder = Folder::new();
+    let expected = rows(&[&log(&folder, true)]);
+    let exact = rows(&[&log(&folder, false)]);
+    for name in ["room.mcap", "room.bag"] {
+        let found = rows(&[&bag(name), "--frames", "map"]);
+        assert_eq!(found.len(), 1);
+        assert_eq!((&found[0]["poses"], &found[0]["scans"]), (&"map".into(), &75.into()));
+        assert_alike(&found[0], &expected[0]);
+        // Not of the log itself: 3.776 m is no number of single precision, and a beam may end in the next cell.
+        let [a, b] = [&found[0], &exact[0]].map(|row| row["mean_information"].as_f64().unwrap());
+        assert!((a - b).abs() < 1e-4, "{name}: {a} {b}");
+        let warning = found[0]["warnings"].to_string();
+        assert!(!warning.contains("time_increment"), "{warning}");
+    }
+}
+
+/// The poses of topics, of frames and of a file beside them, on the same mount: the same bits.
+#[test]
+fn topics_frames_and_files_give_the_same_bits() {
+    let path = bag("room.mcap");
+    let odometry = read_scans(&Path::new(MAPS).join("room.log"), &ScanOptions::default()).unwrap();
+    let odometry = odometry.trajectories.into_iter().find(|held| held.name == "odometry").unwrap().trajectory;
+    let folder = Folder::new();
+    let mut text = Vec::new();
+    tum::write(&odometry, "", &mut text).unwrap();
+    let file = written(&folder, "odometry.tum", &text);
+    let topics = "/odom,/slam_pose,/amcl_pose";
+    let found = rows(&[&path, &file, "--frames", "odom,map", "--pose-topics", topics]);
+    let names: Vec<_> = found.iter().map(|row| row["poses"].as_str().unwrap()).collect();
+    assert_eq!(names, ["odom", "map", "/odom", "/slam_pose", "/amcl_pose", &*file]);
+    let bits = |row: &Value| row["mean_information_hex"].clone();
+    for same in [2, 5] {
+        assert_eq!(bits(&found[same]), bits(&found[0]), "{same}");
+    }
+    assert_eq!(bits(&found[3]), bits(&found[4]));
+    assert_alike(&found[3], &found[1]);
+    assert!(found[2]["warnings"].to_string().contains("has the very poses of odom"));
+    // What is given overrides what the bag says; the same mount gives the same bits.
+    let given = rows(&[&path, "--frames", "odom", "--mount", MOUNT]);
+    assert_alike(&given[0], &found[0]);
+    let none = rows(&[&path, "--frames", "odom", "--mount", "0,0,0"]);
+    assert_ne!(bits(&none[0]), bits(&found[0]));
+    assert_eq!(rows(&[&path]).iter().map(|row| row["poses"].clone()).collect::<Vec<_>>(), ["map", "odom"]);
+}
+
+#[test]
+fn options_that_a_file_has_no_use_for_and_choices() {
+    let path = bag("room.bag");
+    let log = format!("{MAPS}/room.log");
+    for (arguments, words) in [
+        (&[&*log, "--frames", "map"][..], "is no bag by its name; --frames needs one"),
+        (&[&path, "--trajectory", "0"], "is no saved state by its name; --trajectory needs one"),
+        (
+            &[&path, "--topic", "/lidar"],
+            "has no topic /lidar of type sensor_msgs/LaserScan; topics of its scans are: /scan",
+        ),
+        (
+            &[&path, "--frames", "earth"],
+            "TF does not connect base_footprint with earth; the frames over base_footprint are: odom, map",
+        ),
+        (&[&path, "--base", "laser", "--pose-topics", "/odom,/gps"], "has no topic /gps"),
+        (
+            &[&bag("maps_none.bag")],
+            "has no topic of type sensor_msgs/LaserScan; topics of its scans are: none",
+        ),
+    ] {
+        let line = refusal(&[&["trajectory"], arguments].concat());
+        assert!(line.contains(words), "{line}");
+    }
+    let mounted = stdout(&["trajectory", &path]);
+    assert!(mounted.contains("0.25, 0.125 m and 0.5 rad on the robot"), "{mounted}");
+}
+
+/// Says whether the log of the Intel Research Lab, as a bag that `make_scans.py LOG BAG` made beside it, gives the numbers of
+/// the log: to be made where the log is, as public logs are not kept here.
+#[test]
+fn a_bag_of_a_public_log_has_its_numbers() {
+    let Some(data) = shared_data() else { return };
+    let Some(made) = std::env::var_os("MEANINFO_INTEL_BAG") else {
+        return println!(
+            "skipped: MEANINFO_INTEL_BAG names no bag; crates/files/tests/bags/make_scans.py makes it"
+        );
+    };
+    let of = |path: &Path, more: &[&str]| rows(&[&[path.to_str().unwrap()], more].concat());
+    let [log, found] =
+        [of(&data.join("slam/intel.log"), &[]), of(Path::new(&made), &["--frames", "map,odom"])];
+    for (found, log) in found.iter().zip(&log) {
+        println!("{} {} {}", found["poses"], numbers(found), numbers(log));
+        for key in ["scans", "scans_used", "beams"] {
+            assert_eq!(found[key], log[key], "{key}");
+        }
+        for (key, allowed) in [("mean_information", 2e-3), ("agreement", 2e-3)] {
+            let [a, b] = [found, log].map(|row| row[key].as_f64().unwrap());
+            assert!((a - b).abs() < allowed, "{key}: {a} {b}");
+        }
+    }
+}
+
+#[test]
+fn a_real_state_is_better_after_its_loops_were_closed() {
+    let Some(data) = shared_data() else { return };
+    let path = data.join("cartographer/JFR_racingv5.pbstream");
+    let found = rows(&[path.to_str().unwrap()]);
+    let names: Vec<_> = found.iter().map(|row| row["poses"].as_str().unwrap()).collect();
+    assert_eq!(names, ["local", "global"]);
+    for row in &found {
+        println!("{row}");
+        assert_eq!((&row["scans_used"], &row["beams"]), (&860.into(), &178_462.into()));
+        assert!(row["warnings"][0].as_str().unwrap().contains("thinned out"), "{row}");
+    }
+}

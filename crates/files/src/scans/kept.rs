@@ -1,0 +1,23 @@
+//! The numbers of a log that are kept, limited: what is compressed may hold a thousand times as many as it has bytes.
+
+use crate::error::{Error, ErrorKind};
+use crate::options::MAX_CELLS;
+
+/// The number of numbers so far.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Kept(u64);
+
+impl Kept {
+    /// Counts more.
+    ///
+    /// # Errors
+    /// An [`Error`] if they are more than [`MAX_CELLS`]: 2 GiB.
+    pub(crate) fn add(&mut self, numbers: usize) -> Result<(), Error> {
+        self.0 = self.0.saturating_add(numbers as u64);
+        if self.0 <= MAX_CELLS {
+            return Ok(());
+        }
+        let refused = Error::new(ErrorKind::OutOfMemory, "holds more than the limit of ranges and poses");
+        Err(refused.with_value(self.0.to_string()).allowing(", allowed are ", MAX_CELLS.to_string()))
+    }
+}

@@ -25,6 +25,7 @@
 //! | [`plots`] | pictures of maps, curves, sweeps, bags and convergence |
 //! | [`paper`] | the figures and the claims of the report |
 //! | [`trajectory`] | trajectories compared by the maps that they make of the same scans |
+//! | [`filter`] | the expected map of a filter's log, step by step |
 //! | [`commands`] | the arguments, and what they ask for |
 
 pub mod check;
@@ -32,6 +33,7 @@ mod clamp;
 pub mod commands;
 pub mod convergence;
 mod failure;
+pub mod filter;
 pub mod hex_float;
 pub mod measures;
 mod metres;

@@ -14,5 +14,5 @@ pub mod tum;
 
 pub use association::Association;
 pub use poses::Trajectory;
-pub(crate) use poses::check_time;
+pub(crate) use poses::{check_time, compose};
 pub(crate) use quaternion::yaw;

@@ -5,46 +5,44 @@ use crate::cell::State;
 use crate::map::Encoding;
 use crate::map::repeated::Repeated;
 use crate::real::Real;
-use crate::rounded::NaturalNumber;
 use crate::rounded::beyond_float::{self, Both};
+use crate::rounded::{Leading, NaturalNumber};
 use crate::tally::Tally;
 use alloc::vec::Vec;
 use core::cmp::Ordering;
 use num_traits::Zero;
 
-/// The marginal of a cell: the nearest float, the state, and entropy with information as the sums need them.
-#[derive(Clone, Copy)]
-struct Marginal<T> {
-    nearest: T,
-    state: State,
-    both: Both,
+/// The marginal of a cell: its state, and entropy with information as the sums need them.
+pub(super) type Summand = (State, Both);
+
+/// Computes the marginal of a cell from an exact mean of occupancies; `first` tells what [`Mean::leading`] does.
+pub(super) fn summand(mean: &Mean<'_>, first: impl Fn() -> Option<(Leading, bool)>) -> Summand {
+    let beside_half = mean.beside_half();
+    let state = match beside_half.sign() {
+        Ordering::Less => State::Free,
+        Ordering::Greater => State::Occupied,
+        Ordering::Equal => State::Unknown,
+    };
+    // A certain mean, 0 or 1, has no smaller probability to go by.
+    let minor = || {
+        let minor = if state == State::Free { first() } else { mean.complement().leading() };
+        minor.map_or(beyond_float::CERTAIN, |(leading, _)| beyond_float::at_smaller_probability(leading))
+    };
+    let beside_unknown =
+        || beside_half.leading().and_then(|(leading, _)| beyond_float::at_distance_from_unknown(leading));
+    let both = match state {
+        State::Unknown => beyond_float::UNKNOWN,
+        _ if beside_half.is_above_a_sixteenth() => minor(),
+        _ => beside_unknown().unwrap_or_else(minor),
+    };
+    (state, both)
 }
 
-impl<T: Real> Marginal<T> {
-    /// Computes the marginal from an exact mean of occupancies.
-    fn of(mean: &Mean<'_>) -> Self {
-        let beside_half = mean.beside_half();
-        let state = match beside_half.sign() {
-            Ordering::Less => State::Free,
-            Ordering::Greater => State::Occupied,
-            Ordering::Equal => State::Unknown,
-        };
-        let first = mean.leading();
-        let nearest = first.map_or(T::zero(), |(leading, cut)| leading.nearest(cut));
-        // A certain mean, 0 or 1, has no smaller probability to go by.
-        let minor = || {
-            let minor = if state == State::Free { first } else { mean.complement().leading() };
-            minor.map_or(beyond_float::CERTAIN, |(leading, _)| beyond_float::at_smaller_probability(leading))
-        };
-        let beside_unknown =
-            || beside_half.leading().and_then(|(leading, _)| beyond_float::at_distance_from_unknown(leading));
-        let both = match state {
-            State::Unknown => beyond_float::UNKNOWN,
-            _ if beside_half.is_above_a_sixteenth() => minor(),
-            _ => beside_unknown().unwrap_or_else(minor),
-        };
-        Self { nearest, state, both }
-    }
+/// Computes the marginal of a cell on which all maps agree, from its occupancy.
+pub(super) fn agreed<T: Real>(p: T) -> Summand {
+    let one = NaturalNumber::from(1);
+    let mean = Mean::of_one(p, &one);
+    summand(&mean, || mean.leading())
 }
 
 /// The sums over the marginals of cells.
@@ -67,9 +65,11 @@ impl<'a, E: Encoding> Marginals<'a, E> {
     pub(super) fn add(&mut self, stored: &[E::Stored]) -> E::Float {
         self.occupancies.clear();
         self.occupancies.extend(stored.iter().filter_map(|&stored| E::occupancy(stored)));
-        let marginal = Marginal::of(&self.weights.mean(&self.occupancies));
-        self.tally.add_fixed(marginal.state, marginal.both, 1);
-        marginal.nearest
+        let mean = self.weights.mean(&self.occupancies);
+        let first = mean.leading();
+        let (state, both) = summand(&mean, || first);
+        self.tally.add_fixed(state, both, 1);
+        first.map_or(E::Float::zero(), |(leading, cut)| leading.nearest(cut))
     }
 
     /// Adds cells of which all maps store the same value; their mean is [`nearest`].
@@ -90,8 +90,8 @@ impl<'a, E: Encoding> Marginals<'a, E> {
 
 /// Adds `count` cells with this stored value to a tally.
 fn add_agreed<E: Encoding>(tally: &mut Tally<E::Float>, stored: E::Stored, count: u64) {
-    let marginal = Marginal::<E::Float>::of(&Mean::of_one(nearest::<E>(stored), &NaturalNumber::from(1)));
-    tally.add_fixed(marginal.state, marginal.both, count);
+    let (state, both) = agreed(nearest::<E>(stored));
+    tally.add_fixed(state, both, count);
 }
 
 /// Returns the mean where all maps store the same value: its occupancy, and never `-0`.

@@ -6,6 +6,7 @@
 mod alignment;
 mod hypotheses;
 mod marginals;
+mod particle_maps;
 mod stack;
 mod weights;
 

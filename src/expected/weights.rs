@@ -67,6 +67,36 @@ impl Weights {
         self.parts[index].0 > 0
     }
 
+    /// Returns the weights as integers in units of their lowest bit, if their sum is below `2^128`.
+    pub(super) fn integers(&self) -> Option<Vec<u128>> {
+        let fits = self.total.bits() <= 128;
+        fits.then(|| self.parts.iter().map(|&(m, shift)| u128::from(m) << shift).collect())
+    }
+
+    /// Computes the exact mean of occupancies, each with the sum of the [`integers`](Self::integers) of the weights of those that
+    /// have it; `None` if their exponents are too far apart for 256 bits.
+    pub(super) fn mean_of_groups<T: Real>(&self, groups: &[(u128, T)]) -> Option<Mean<'_>> {
+        let parts = || groups.iter().filter(|(_, x)| !x.is_zero()).map(|&(weight, x)| (weight, x.parts()));
+        let least = parts().map(|(_, (_, e))| e).min().unwrap_or(0);
+        let (mut low, mut high) = (0_u128, 0_u128);
+        for (weight, (m, e)) in parts() {
+            let shift = (e - least) as u32;
+            // Weights below 2^128 in all, times 2^53 and 2^64: below 2^245, and their sum is one of such a product.
+            if shift > 64 {
+                return None;
+            }
+            let half = |weight: u128| weight * u128::from(m);
+            let (bottom, top) = (half(weight & u128::from(u64::MAX)), half(weight >> 64));
+            let (bottom, carry) = bottom.overflowing_add(top << 64);
+            let top = (top >> 64) + u128::from(carry);
+            let carry;
+            (low, carry) = low.overflowing_add(bottom << shift);
+            high += (top << shift) + ((bottom >> 1) >> (127 - shift)) + u128::from(carry);
+        }
+        let sum = NaturalNumber::from([low, high]);
+        Some(Mean { sum, is_negative: false, exponent: least, total: &self.total })
+    }
+
     /// Computes the exact mean of finite numbers, one for each weight.
     pub(super) fn mean<T: Real>(&self, values: &[T]) -> Mean<'_> {
         let (mut small, mut large) = (T::max_value(), T::zero());

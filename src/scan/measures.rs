@@ -1,5 +1,6 @@
 //! What a map of scans says: Eqs. 2 to 4 over its cells, and the map itself in log-odds or probabilities.
 
+use super::raster::Area;
 use super::scan_map::ScanMap;
 use crate::cell::Cell;
 use crate::error::Error;
@@ -147,7 +148,11 @@ impl<T: Real> ScanMap<T> {
 
     /// Returns the size of the rectangle that was seen, and its place in the world.
     pub(super) fn place(&self) -> Result<([usize; 2], Geometry), Error> {
-        let seen = self.sums.as_ref().map(super::sums::Sums::seen);
+        self.place_of(self.sums.as_ref().map(super::sums::Sums::seen))
+    }
+
+    /// Returns the size of a rectangle of cells of this resolution, and its place in the world.
+    pub(super) fn place_of(&self, seen: Option<Area>) -> Result<([usize; 2], Geometry), Error> {
         let (size, low) = seen.map_or(([0, 0], [0, 0]), |seen| (seen.size(), seen.low()));
         // Rounded once: the number of a column is a float.
         let origin = low.map(|k| k as f64 * self.resolution());

@@ -146,6 +146,15 @@ impl<C: Copy> Raster<C> {
         &mut self.row_mut(Area::of_cell([column, row]), row)[0]
     }
 
+    /// Replaces the value of each cell of an area, which the raster must hold.
+    pub(super) fn map_in(&mut self, area: Area, of: impl Fn(C) -> C) {
+        for row in area.low[1]..area.high[1] {
+            for cell in self.row_mut(area, row) {
+                *cell = of(*cell);
+            }
+        }
+    }
+
     /// Returns the rows of an area that the raster must hold, from the lowest.
     pub(super) fn rows(&self, area: Area) -> impl Iterator<Item = &[C]> {
         (area.low[1]..area.high[1]).map(move |row| self.row(area, row))

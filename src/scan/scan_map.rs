@@ -46,8 +46,8 @@ use core::marker::PhantomData;
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScanMap<T> {
     pub(super) lattice: Lattice,
-    limit: i128,
-    max_cells: u64,
+    pub(super) limit: i128,
+    pub(super) max_cells: u64,
     has_agreement: bool,
     inserted: Inserted,
     /// The sums of the readings of each cell; `None` while no scan is held.

@@ -2,6 +2,7 @@
 
 mod agreement;
 mod jackknife;
+mod particles;
 mod public_log;
 mod refused;
 mod removal;

@@ -26,6 +26,7 @@
 //! | [`limits`] | limits with their ends, by whichever method |
 //! | [`paper`] | the figures and the claims of the report |
 //! | [`trajectory`] | trajectories compared by the maps that they make of the same scans |
+//! | [`filter`] | the expected map of a filter's log, step by step |
 //! | [`commands`] | the arguments, and what they ask for |
 //! | `run` | the command as a function |
 
@@ -34,6 +35,7 @@ mod clamp;
 pub mod commands;
 pub mod convergence;
 mod failure;
+pub mod filter;
 pub mod hex_float;
 pub mod limits;
 pub mod measures;

@@ -1,6 +1,7 @@
 //! `meaninfo emmi`: the mean information of the expected map of weighted maps.
 
 use super::Status;
+use super::filter::Filter;
 use crate::failure::Failure;
 use crate::measures::Measures;
 use crate::metres::positive;
@@ -14,79 +15,90 @@ use mean_information_files::npy::MapsVisitor;
 use mean_information_files::{
     ArrayEncoding, MAX_CELLS, Options, Readable, file_of, read_particles, read_weights,
 };
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// The arguments of `meaninfo emmi`.
 #[derive(Args, Debug)]
 pub struct Arguments {
     /// The particles' maps: an .npy array of three dimensions, particle, row and column.
-    #[arg(long, value_name = "FILE.npy")]
-    particles: PathBuf,
+    #[arg(long, value_name = "FILE.npy", required_unless_present = "filter", requires = "weights")]
+    particles: Option<PathBuf>,
     /// Their weights: an .npy list of floats or integers, not negative and not all 0; they need not add up to 1.
-    #[arg(long, value_name = "FILE.npy")]
-    weights: PathBuf,
+    #[arg(long, value_name = "FILE.npy", requires = "particles")]
+    weights: Option<PathBuf>,
     /// What the numbers of the maps are; if absent, floats are probabilities and int8 are percentages.
-    #[arg(long, value_enum)]
+    #[arg(long, value_enum, requires = "particles")]
     encoding: Option<ArrayEncoding>,
     /// The number of maps of floats that means unknown, or nan.
-    #[arg(long, value_name = "NUMBER|nan")]
+    #[arg(long, value_name = "NUMBER|nan", requires = "particles")]
     unknown: Option<f64>,
-    /// The side of a cell in metres.
+    /// The side of a cell in metres; of a --filter's maps 0.05 if absent.
     #[arg(long, value_name = "METRES", value_parser = positive::<f64>)]
     resolution: Option<f64>,
-    /// Refuse particles of more cells together than this before memory is taken for them.
-    #[arg(long, value_name = "N", default_value_t = MAX_CELLS)]
-    max_cells: u64,
+    /// Refuse particles of more cells together than this before memory is taken for them, 268435456 if absent; of a --filter,
+    /// maps of more cells than this, 67108864 if absent.
+    #[arg(long, value_name = "N")]
+    max_cells: Option<u64>,
+    #[command(flatten)]
+    filter: Filter,
     #[command(flatten)]
     writing: Writing,
 }
 
 impl Arguments {
     pub(super) fn run(&self) -> Result<Status, Failure> {
+        match (&self.filter.log, &self.particles, &self.weights) {
+            (Some(log), ..) => self.filter.run(log, self.resolution, self.max_cells, &self.writing),
+            (None, Some(particles), Some(weights)) => {
+                self.filter.refuse()?;
+                self.run_once(particles, weights)
+            }
+            // The parser asks for them.
+            _ => Err(Failure::Usage("give --particles and --weights, or --filter".to_owned())),
+        }
+    }
+
+    /// Measures the expected map of maps as they are stored.
+    fn run_once(&self, particles: &Path, weights_file: &Path) -> Result<Status, Failure> {
+        let max_cells = self.max_cells.unwrap_or(MAX_CELLS);
         let options = Options {
             encoding: self.encoding,
             unknown: self.unknown,
             resolution: self.resolution,
-            max_cells: Some(self.max_cells),
+            max_cells: Some(max_cells),
             ..Options::default()
         };
-        let weights = read_weights(&self.weights, &options)?;
-        let expected = read_particles(
-            &self.particles,
-            &options,
-            Expecting { weights: &weights, max_cells: self.max_cells },
-        )?;
-        let expected = expected.map_err(|error| self.refused(error))?;
-        let name = self.particles.display().to_string();
+        let weights = read_weights(weights_file, &options)?;
+        let expected = read_particles(particles, &options, Expecting { weights: &weights, max_cells })?;
+        let expected = expected.map_err(|error| refused(error, particles, weights_file))?;
+        let name = particles.display().to_string();
         let report = Emmi { name, weights, resolution: self.resolution, expected };
         let mut files = Files::new();
-        files.read([&self.particles, &self.weights].map(|path| file_of(path).to_owned()));
+        files.read([particles, weights_file].map(|path| file_of(path).to_owned()));
         self.writing.write(&report, files)?;
         Ok(Status::Done)
     }
 }
 
-impl Arguments {
-    /// Creates the failure of weights that do not go with the particles, or are none.
-    fn refused(&self, error: mean_information::Error) -> Failure {
-        use mean_information::Error as Refused;
-        let help = match error {
-            Refused::WeightCount { given, items } => {
-                let particles = self.particles.display();
-                let message = format!(
-                    "has {given} weights, but {particles} has {items} particles; allowed is one for each"
-                );
-                return Failure::file(&self.weights, message);
-            }
-            Refused::Item { value, .. } if value < 0.0 => {
-                "; if they are logarithms, np.exp(w - w.max()) makes weights of them"
-            }
-            Refused::Item { value, .. } if value.is_nan() => "; np.nan_to_num(w) makes 0 of NaN",
-            _ => "",
-        };
-        let words = mean_information_files::Error::from(error);
-        Failure::file(&self.weights, format!("{}{help}", words.message()))
-    }
+/// Creates the failure of weights that do not go with the particles, or are none.
+fn refused(error: mean_information::Error, particles: &Path, weights: &Path) -> Failure {
+    use mean_information::Error as Refused;
+    let help = match error {
+        Refused::WeightCount { given, items } => {
+            let particles = particles.display();
+            let message = format!(
+                "has {given} weights, but {particles} has {items} particles; allowed is one for each"
+            );
+            return Failure::file(weights, message);
+        }
+        Refused::Item { value, .. } if value < 0.0 => {
+            "; if they are logarithms, np.exp(w - w.max()) makes weights of them"
+        }
+        Refused::Item { value, .. } if value.is_nan() => "; np.nan_to_num(w) makes 0 of NaN",
+        _ => "",
+    };
+    let words = mean_information_files::Error::from(error);
+    Failure::file(weights, format!("{}{help}", words.message()))
 }
 
 /// The measures of the expected map and of the particles.

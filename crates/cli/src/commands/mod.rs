@@ -4,10 +4,12 @@ mod bag;
 mod check;
 mod converge;
 mod emmi;
+mod filter;
 mod limit;
 mod map;
 mod paper;
 mod port;
+mod sensor;
 mod simulate;
 mod sweep;
 mod trajectory;
@@ -62,8 +64,9 @@ pub enum Command {
     /// The mean information of grids of a circular room against the size of their cells: how they tend to the limit, and the
     /// proved bound on how far they are from it.
     Converge(converge::Arguments),
-    /// The expected map of a particle filter's weighted maps, its mean information (EMMI), and that of each particle.
-    Emmi(emmi::Arguments),
+    /// The expected map of a particle filter's weighted maps, its mean information (EMMI), and that of each particle; or of a
+    /// GMapping log (--filter), step by step.
+    Emmi(Box<emmi::Arguments>),
     /// A simulated robot with a range sensor in a room: the map it makes, written as a ROS map and as an array.
     Simulate(simulate::Arguments),
     /// Everything in the report, computed again: its five figures, its claims as a table, and a page with both.

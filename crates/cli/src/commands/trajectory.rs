@@ -1,6 +1,7 @@
 //! `meaninfo trajectory`: which trajectory makes the most consistent map of the scans of a log.
 
 use super::Status;
+use super::sensor::{Sensor, mount};
 use crate::failure::Failure;
 use crate::metres::positive;
 use crate::output::{Files, Writing};
@@ -8,13 +9,13 @@ use crate::plots::{self, Picture};
 use crate::progress::Progress;
 use crate::reading::in_words;
 use crate::trajectory::{
-    Candidate, Common, Comparison, Measured, Pictures, Recorded, Refused, SensorModel, Setup, Used, Wanted,
-    far_pose, measure_all,
+    Candidate, Common, Comparison, Measured, Pictures, Recorded, Refused, Setup, Used, Wanted, far_pose,
+    measure_all,
 };
-use clap::{Args, ValueEnum};
+use clap::Args;
 use mean_information::Error;
 use mean_information::scan::{Pose, ScanMap};
-use mean_information_files::scans::{Frame, NoReturn, ScanLog, ScanOptions, TimeField};
+use mean_information_files::scans::{Frame, ScanLog, ScanOptions, TimeField};
 use mean_information_files::{bags, read_selected_scans, read_trajectory};
 use std::num::NonZero;
 use std::path::PathBuf;
@@ -64,46 +65,6 @@ pub struct Arguments {
     writing: Writing,
 }
 
-/// What a beam means.
-#[derive(Args, Debug)]
-#[command(next_help_heading = "Sensor")]
-struct Sensor {
-    /// The inverse sensor model of a beam.
-    #[arg(long = "sensor", value_enum, default_value_t)]
-    model: SensorName,
-    /// Stepped: the occupancy of free space, from 0 to 1/2; 0.4 if absent.
-    #[arg(long, value_name = "P")]
-    free: Option<f64>,
-    /// Stepped: the occupancy of an obstacle, from 1/2 to 1; 0.7 if absent.
-    #[arg(long, value_name = "P")]
-    occupied: Option<f64>,
-    /// Stepped: the thickness of an obstacle; one cell if absent.
-    #[arg(long, value_name = "METRES", value_parser = positive::<f64>)]
-    thickness: Option<f64>,
-    /// Gaussian: the standard deviation of a range.
-    #[arg(long, value_name = "METRES", value_parser = positive::<f64>)]
-    sigma: Option<f64>,
-    /// The greatest log-odds of one reading of a cell, in nats.
-    #[arg(long, value_name = "NATS", default_value_t = ScanMap::<f64>::READING_LIMIT)]
-    reading_limit: f64,
-    /// The range from which on a beam did not return; if absent, that of the log, or 50.
-    #[arg(long, value_name = "METRES", value_parser = positive::<f64>)]
-    max_range: Option<f64>,
-    /// What a beam that did not return means: nothing, or free space up to the greatest range.
-    #[arg(long, value_enum, default_value_t)]
-    no_return: NoReturn,
-}
-
-/// The inverse sensor models by their names.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-enum SensorName {
-    /// Steps: free up to an obstacle, occupied over its thickness.
-    #[default]
-    Stepped,
-    /// Eq. 5 of the paper; it saturates, so that trajectories are told apart less well.
-    Gaussian,
-}
-
 /// Where the laser was.
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Poses")]
@@ -122,7 +83,7 @@ struct Association {
 
 impl Arguments {
     pub(super) fn run(&self) -> Result<Status, Failure> {
-        let setup = self.setup()?;
+        let setup = self.sensor.setup(self.resolution, self.max_cells)?;
         let series = self.series.as_deref().map(Picture::by_name).transpose()?;
         for picture in [&self.heat_map, &self.conflicts].into_iter().flatten() {
             plots::require_png(picture)?;
@@ -170,38 +131,6 @@ impl Arguments {
         }
         self.writing.write(&comparison, files)?;
         Ok(Status::Done)
-    }
-
-    /// Returns how maps are made.
-    fn setup(&self) -> Result<Setup, Failure> {
-        let Sensor { model, free, occupied, thickness, sigma, reading_limit, no_return, .. } = self.sensor;
-        let usage = |message: &str| Err(Failure::Usage(message.to_owned()));
-        let sensor = match (model, sigma) {
-            (SensorName::Stepped, None) => SensorModel::Stepped {
-                free: free.unwrap_or(0.4),
-                occupied: occupied.unwrap_or(0.7),
-                thickness: thickness.unwrap_or(self.resolution),
-            },
-            (SensorName::Stepped, Some(_)) => {
-                return usage("--sigma needs --sensor gaussian; give both or neither");
-            }
-            (SensorName::Gaussian, Some(sigma)) if free.or(occupied).or(thickness).is_none() => {
-                SensorModel::Gaussian { sigma }
-            }
-            (SensorName::Gaussian, Some(_)) => {
-                return usage("--free, --occupied and --thickness need --sensor stepped; leave them out");
-            }
-            (SensorName::Gaussian, None) => return usage("--sensor gaussian needs --sigma METRES; give it"),
-        };
-        let setup = Setup {
-            resolution: self.resolution,
-            sensor,
-            reading_limit,
-            no_return,
-            max_cells: self.max_cells,
-        };
-        setup.map()?;
-        Ok(setup)
     }
 
     /// Reads the scans.
@@ -316,15 +245,6 @@ fn unmapped(of: &Candidate, common: &Common<'_>, poses: &[Pose], refused: Refuse
         error => format!("the scan at {} s: {error}", common.scans[scan].time()),
     };
     Failure::file(&of.file, message)
-}
-
-/// Reads a pose, `x,y,yaw`, in metres and radians.
-fn mount(text: &str) -> Result<Pose, String> {
-    let numbers: Option<Vec<f64>> = text.split(',').map(|number| number.trim().parse().ok()).collect();
-    match numbers.as_deref() {
-        Some(&[x, y, yaw]) => Pose::new(x, y, yaw).map_err(|error| error.to_string()),
-        _ => Err("not three numbers, x,y,yaw, in metres and radians".to_owned()),
-    }
 }
 
 /// Reads a time, 0 or more.

@@ -51,18 +51,23 @@ pub(super) fn curve<'a, B: DrawingBackend + 'a>(
     marks: Marks,
     points: &[(f64, f64)],
 ) -> Result<(), BackendError<B::ErrorType>> {
-    let line = frame.draw_series(LineSeries::new(points.iter().copied(), colour.stroke_width(2)))?;
+    let is_line = marks != Marks::Alone;
+    let connected = points.iter().copied().filter(|_| is_line);
+    let line = frame.draw_series(LineSeries::new(connected, colour.stroke_width(2)))?;
     if !name.is_empty() {
         line.label(name).legend(move |at| {
             EmptyElement::at(at)
-                + PathElement::new([(0, 0), (20, 0)], colour.stroke_width(2))
-                + Circle::new((10, 0), if marks == Marks::Each { 4 } else { 0 }, colour.filled())
+                + PathElement::new(
+                    if is_line { vec![(0, 0), (20, 0)] } else { vec![] },
+                    colour.stroke_width(2),
+                )
+                + Circle::new((10, 0), if marks.is_dotted() { 4 } else { 0 }, colour.filled())
                 + Polygon::new(marks.outline((10, 0)), colour.filled())
         });
     }
     match marks {
         Marks::None => {}
-        Marks::Each => {
+        Marks::Each | Marks::Alone => {
             frame.draw_series(points.iter().map(|&point| Circle::new(point, 4, colour.filled())))?;
         }
         Marks::Spaced(shape) => {

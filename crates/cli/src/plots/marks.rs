@@ -7,6 +7,8 @@ pub enum Marks {
     None,
     /// A dot on each point.
     Each,
+    /// A dot on each point, and no line.
+    Alone,
     /// A shape on a few points.
     Spaced(Shape),
 }
@@ -85,11 +87,16 @@ impl Shape {
 }
 
 impl Marks {
+    /// Tells whether each point has a dot.
+    pub(super) fn is_dotted(self) -> bool {
+        matches!(self, Self::Each | Self::Alone)
+    }
+
     /// Returns the outline of a shape about a point; empty of no shape.
     pub(super) fn outline(self, (x, y): (i32, i32)) -> Vec<(i32, i32)> {
         match self {
             Self::Spaced(shape) => shape.outline().iter().map(|(dx, dy)| (x + dx, y + dy)).collect(),
-            Self::None | Self::Each => Vec::new(),
+            Self::None | Self::Each | Self::Alone => Vec::new(),
         }
     }
 }

@@ -2,8 +2,9 @@
 
 use super::reader::Reader;
 use super::step::FilterStep;
-use crate::error::{Error, ErrorKind};
+use crate::error::{Error, ErrorKind, Place};
 use crate::scans::ScanOptions;
+use crate::trajectory::compose;
 use crate::warning::Warning;
 use mean_information::scan::Pose;
 use std::io::BufRead;
@@ -72,6 +73,19 @@ impl FilterLog {
             warnings.push(Warning::OtherWeightsStated { steps: differing, gain });
         }
         Ok(Self { steps, gain, warnings, files: Vec::new() })
+    }
+
+    /// Returns the log with the poses of a laser that is mounted on the robots whose poses it has.
+    ///
+    /// # Errors
+    /// An [`Error`] with the number of the step if a pose is not finite.
+    pub fn mounted(mut self, mount: &Pose) -> Result<Self, Error> {
+        for (index, step) in self.steps.iter_mut().enumerate() {
+            for pose in &mut step.poses {
+                *pose = compose(pose, mount).map_err(|error| Error::from(error).at(Place::Item(index)))?;
+            }
+        }
+        Ok(self)
     }
 
     /// Returns the number of particles.

@@ -1,7 +1,7 @@
 //! The nodes of a saved state: scans, each with two poses.
 
 use super::cloud::Cloud;
-use super::fields::{Message, Value, fields};
+use super::fields::{Message, WireValue, fields};
 use crate::error::{Error, ErrorKind};
 use crate::scans::{Bearings, Frame, Kept, RangeScan, RecordedTrajectory, ScanLog, ScanOptions, Selection};
 use crate::trajectory::{Quaternion, Rigid, Tilts, Trajectory, check_time, seconds};
@@ -197,7 +197,7 @@ fn scan(node: &Node, mount: &Pose, greatest: f64) -> Result<RangeScan, Error> {
 /// Reads the fields of these numbers, integers, of a message; one that is not there is 0.
 fn integers<const N: usize>(
     input: &mut Message<'_>,
-    value: Value,
+    value: WireValue,
     numbers: [u64; N],
 ) -> Result<[u64; N], Error> {
     let mut found = [0; N];
@@ -211,7 +211,7 @@ fn integers<const N: usize>(
 }
 
 /// Reads a message whose fields 1 to `N` are numbers; one that is not there is 0.
-fn numbers<const N: usize>(input: &mut Message<'_>, value: Value) -> Result<[f64; N], Error> {
+fn numbers<const N: usize>(input: &mut Message<'_>, value: WireValue) -> Result<[f64; N], Error> {
     let mut found = [0.0; N];
     fields(input, value.length()?, &mut |number, value, _| {
         let place = usize::try_from(number).ok().and_then(|number| number.checked_sub(1));
@@ -224,7 +224,7 @@ fn numbers<const N: usize>(input: &mut Message<'_>, value: Value) -> Result<[f64
 }
 
 /// Reads a message `Quaterniond`.
-fn quaternion(input: &mut Message<'_>, value: Value) -> Result<Quaternion, Error> {
+fn quaternion(input: &mut Message<'_>, value: WireValue) -> Result<Quaternion, Error> {
     let turn = Quaternion(numbers(input, value)?);
     if turn.is_normal() {
         return Ok(turn);
@@ -233,7 +233,7 @@ fn quaternion(input: &mut Message<'_>, value: Value) -> Result<Quaternion, Error
 }
 
 /// Reads a message `Rigid3d`.
-fn rigid(input: &mut Message<'_>, value: Value) -> Result<Rigid, Error> {
+fn rigid(input: &mut Message<'_>, value: WireValue) -> Result<Rigid, Error> {
     let mut pose = Rigid::NONE;
     fields(input, value.length()?, &mut |number, value, input| {
         match number {

@@ -1,6 +1,6 @@
 //! The records of a saved state.
 
-use super::fields::{Each, Value, array, fields_to_end};
+use super::fields::{Each, WireValue, array, fields_to_end};
 use super::nodes::Nodes;
 use super::submap::Submap;
 use crate::error::{Error, ErrorKind, Place};
@@ -58,7 +58,7 @@ pub fn read_scans(
     let most = MAX_COUNTED.saturating_mul(BYTES_PER_CELL).saturating_add(BESIDE_CELLS);
     records(input, length, most, &mut |number, value, input| match (number, value) {
         // The first record has a number in this place: the version of the format.
-        (1, Value::Length(length)) => nodes.read_graph(input, length),
+        (1, WireValue::Length(length)) => nodes.read_graph(input, length),
         (4, value) => nodes.read_node(input, value.length()?),
         _ => Ok(()),
     })?;

@@ -16,8 +16,8 @@ pub mod tum;
 
 pub use association::Association;
 pub(crate) use association::part;
-pub(crate) use poses::check_time;
 pub use poses::{Trajectory, seconds};
+pub(crate) use poses::{check_time, compose};
 pub(crate) use quaternion::Quaternion;
 pub(crate) use rigid::Rigid;
 pub(crate) use tilts::Tilts;

@@ -109,7 +109,7 @@ pub(crate) fn check_time(time: f64, before: Option<f64>) -> Result<(), Error> {
 }
 
 /// Returns the pose in the world of what is at `part` in the frame of `whole`.
-fn compose(whole: &Pose, part: &Pose) -> Result<Pose, mean_information::Error> {
+pub(crate) fn compose(whole: &Pose, part: &Pose) -> Result<Pose, mean_information::Error> {
     let heading = Direction::new(&[whole.theta()])?;
     let ([x, y], [ahead, aside]) = (whole.position(), part.position());
     Pose::new(

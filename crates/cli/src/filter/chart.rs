@@ -1,0 +1,57 @@
+//! The curves of a filter's log against time.
+
+use super::steps::Row;
+use crate::output::Number;
+use crate::plots::{Chart, ChartPanel, Colour, Curve, Marks, Scale};
+
+/// Creates the chart of rows: EMMI with the particles' own mean, the entropy of the expected map, and the particles that count
+/// with those that a resampling leaves. Where it leaves few, a line goes through all panels.
+pub fn chart(rows: &[Row], title: String) -> Chart<3> {
+    let first = rows.first().map_or(0.0, |row| row.time);
+    let curve = |name: &str, colour, marks, of: &dyn Fn(&Row) -> Option<f64>| Curve {
+        name: name.to_owned(),
+        colour,
+        marks,
+        points: rows.iter().filter_map(|row| Some((row.time - first, of(row)?))).collect(),
+    };
+    let panel = |vertical, curves| ChartPanel {
+        vertical,
+        scale: Scale::Linear,
+        curves,
+        marks: rows.iter().filter_map(|row| Some((row.time - first, few(row.left?)?))).collect(),
+    };
+    let line = |name, colour, of| curve(name, colour, Marks::None, of);
+    let means = vec![
+        line("EMMI", Colour::Blue, &|row| row.expected.mean_information.map(Number::widen)),
+        line("mean of the particles' own", Colour::Grey, &|row| row.mean_of_particles.map(Number::widen)),
+    ];
+    let entropy = vec![line("entropy of the expected map", Colour::Orange, &|row| {
+        Some(row.expected.entropy.widen() / 1e3)
+    })];
+    let particles = vec![
+        line("effective particles", Colour::Green, &|row| Some(row.effective)),
+        curve("particles left by a resampling", Colour::Purple, Marks::Alone, &|row| {
+            row.left.map(|left| left as f64)
+        }),
+    ];
+    Chart {
+        title,
+        horizontal: "time since the first scan (s)",
+        scale: Scale::Linear,
+        panels: [
+            panel("mean information (bits / cell)", means),
+            panel("entropy (kbit)", entropy),
+            panel("particles", particles),
+        ],
+    }
+}
+
+/// Names a resampling that leaves few particles.
+fn few(left: usize) -> Option<&'static str> {
+    match left {
+        1 => Some("1 left"),
+        2 => Some("2 left"),
+        3 => Some("3 left"),
+        _ => None,
+    }
+}

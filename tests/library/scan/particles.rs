@@ -22,7 +22,8 @@ const PARTICLES: usize = 5;
 /// Poses of which some are equal, and weights far apart or 0.
 fn step() -> impl Strategy<Value = Step> {
     let spot = prop_oneof![2 => Just([0.3, -0.7, 0.25]), 3 => pose(), 1 => Just([0.3, -0.7, 0.5])];
-    let weight = prop_oneof![5 => 1e-3_f64..0.9, 1 => Just(0.0), 1 => (-300_i32..300).prop_map(|k| 1.5 * power(k))];
+    let weight =
+        prop_oneof![5 => 1e-3_f64..0.9, 1 => Just(0.0), 1 => (-300_i32..300).prop_map(|k| 1.5 * power(k))];
     let weights = vec(weight, PARTICLES).prop_filter("a weight above 0", |w| w.iter().any(|&w| w > 0.0));
     let continued = prop::option::of(vec(0..PARTICLES, PARTICLES));
     let all = (vec(beam(), 1..12), vec(spot, PARTICLES), weights, continued);
@@ -80,7 +81,9 @@ proptest! {
 fn patterns_that_no_cell_has_are_dropped() {
     let beams: Vec<_> = (0..60).map(|k| Beam { bearing: 0.11 * f64::from(k), range: Some(2.3) }).collect();
     let step = |k: u32| {
-        let pose = |particle: u32| [0.013 * f64::from(k), 0.017 * f64::from(particle), 0.05 * f64::from(k * particle)];
+        let pose = |particle: u32| {
+            [0.013 * f64::from(k), 0.017 * f64::from(particle), 0.05 * f64::from(k * particle)]
+        };
         let (poses, weights) = ((0..5).map(pose).collect(), vec![0.5, 0.25, 0.125, 0.7, 0.3]);
         Step { beams: beams.clone(), poses, weights, continued: None }
     };
@@ -113,7 +116,9 @@ fn what_does_not_fit_is_refused_and_changes_nothing() {
     assert_eq!(refused(ParticleMaps::new(empty.clone(), 0)), words);
     let mut filled = empty.clone();
     filled.insert(&scan([0.1, 0.1, 0.0], &beams), stepped).unwrap();
-    assert!(refused(ParticleMaps::new(filled, 2)).starts_with("number of scans of the map of all particles is 1"));
+    assert!(
+        refused(ParticleMaps::new(filled, 2)).starts_with("number of scans of the map of all particles is 1")
+    );
 
     let mut maps = ParticleMaps::new(empty, 2).unwrap();
     let near = [scan([0.1, 0.1, 0.0], &beams), scan([0.1, 0.4, 0.0], &beams)];

@@ -40,7 +40,9 @@ impl Made {
     pub fn in_words(&self) -> [String; 2] {
         let Self { steps, resamplings, particles, gain, setup, mount, .. } = self;
         [
-            format!("{steps} scans, {particles} particles, {resamplings} resamplings; weights by a gain of {gain}; {mount}"),
+            format!(
+                "{steps} scans, {particles} particles, {resamplings} resamplings; weights by a gain of {gain}; {mount}"
+            ),
             format!(
                 "cells of {} m; sensor {}; readings up to {} nats",
                 setup.resolution, setup.sensor, setup.reading_limit

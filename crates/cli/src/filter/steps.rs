@@ -78,7 +78,8 @@ fn insert(maps: &mut ParticleMaps<f64>, setup: &Setup, step: &FilterStep) -> Res
 fn row(maps: &ParticleMaps<f64>, log: &FilterLog, index: usize, left: Option<usize>) -> Result<Row, Error> {
     let (step, weights) = (&log.steps[index], log.weights(index));
     let expected = Measures::of_tally([0; 2], &maps.par_expected_tally(&weights)?);
-    let observed = (0..maps.particles()).filter_map(|particle| maps.tally(particle)).any(|own| own.observed() > 0);
+    let observed =
+        (0..maps.particles()).filter_map(|particle| maps.tally(particle)).any(|own| own.observed() > 0);
     let mean = Number::new(maps.mean_of_mean_information(&weights)?);
     Ok(Row {
         step: index,

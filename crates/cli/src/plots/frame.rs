@@ -57,7 +57,10 @@ pub(super) fn curve<'a, B: DrawingBackend + 'a>(
     if !name.is_empty() {
         line.label(name).legend(move |at| {
             EmptyElement::at(at)
-                + PathElement::new(if is_line { vec![(0, 0), (20, 0)] } else { vec![] }, colour.stroke_width(2))
+                + PathElement::new(
+                    if is_line { vec![(0, 0), (20, 0)] } else { vec![] },
+                    colour.stroke_width(2),
+                )
                 + Circle::new((10, 0), if marks.is_dotted() { 4 } else { 0 }, colour.filled())
                 + Polygon::new(marks.outline((10, 0)), colour.filled())
         });

@@ -30,7 +30,8 @@
 //! # Where to begin
 //! * **You have a map**: [`map::Grid`] for what mapping programs store, [`Tally::from_occupancies`] for any list of
 //!   occupancies, [`map::Histogram`] for bytes as they are read. For files there is the command `meaninfo`.
-//! * **You have a particle filter**: [`expected::Hypotheses`], whose expected map's mean information is the EMMI.
+//! * **You have a particle filter**: [`expected::Hypotheses`], whose expected map's mean information is the EMMI; over a run,
+//!   [`scan::ParticleMaps`].
 //! * **You have a sensor model**: [`sensor::InverseSensorModel`] for grids, [`limit::RadialModel`] for their limit.
 //! * **You write a port**: [`operations`], and [`book::porting`].
 //! * **You read the report**: [`book`], and [`book::paper`] for where each of its lines is.

@@ -4,6 +4,7 @@ use super::marginals::{agreed, summand};
 use super::weights::{Weights, weighted_mean};
 use crate::cell::State;
 use crate::error::Error;
+#[cfg(feature = "rayon")]
 use crate::map::parts;
 use crate::real::Real;
 use crate::rounded::beyond_float;

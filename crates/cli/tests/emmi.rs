@@ -1,4 +1,5 @@
 //! Tests of `meaninfo emmi`.
 
 mod common;
+mod filter;
 mod particles;

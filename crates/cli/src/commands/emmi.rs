@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 #[derive(Args, Debug)]
 pub struct Arguments {
     /// The particles' maps: an .npy array of three dimensions, particle, row and column.
-    #[arg(long, value_name = "FILE.npy", required_unless_present = "filter", requires = "weights")]
+    #[arg(long, value_name = "FILE.npy", required_unless_present = "log", requires = "weights")]
     particles: Option<PathBuf>,
     /// Their weights: an .npy list of floats or integers, not negative and not all 0; they need not add up to 1.
     #[arg(long, value_name = "FILE.npy", requires = "particles")]
@@ -48,6 +48,11 @@ pub struct Arguments {
 impl Arguments {
     pub(super) fn run(&self) -> Result<Status, Failure> {
         match (&self.filter.log, &self.particles, &self.weights) {
+            // The parser does not ask for what an argument needs where that is excluded.
+            (Some(_), ..) if self.encoding.is_some() || self.unknown.is_some() => {
+                let words = "--encoding and --unknown need --particles: the maps of --filter are made here";
+                Err(Failure::Usage(words.to_owned()))
+            }
             (Some(log), ..) => self.filter.run(log, self.resolution, self.max_cells, &self.writing),
             (None, Some(particles), Some(weights)) => {
                 self.filter.refuse()?;

@@ -14,12 +14,7 @@ pub fn chart(rows: &[Row], title: String) -> Chart<3> {
         marks,
         points: rows.iter().filter_map(|row| Some((row.time - first, of(row)?))).collect(),
     };
-    let panel = |vertical, curves| ChartPanel {
-        vertical,
-        scale: Scale::Linear,
-        curves,
-        marks: rows.iter().filter_map(|row| Some((row.time - first, few(row.left?)?))).collect(),
-    };
+    let panel = |vertical, curves| ChartPanel { vertical, scale: Scale::Linear, curves, marks: marks(rows) };
     let line = |name, colour, of| curve(name, colour, Marks::None, of);
     let means = vec![
         line("EMMI", Colour::Blue, &|row| row.expected.mean_information.map(Number::widen)),
@@ -45,6 +40,22 @@ pub fn chart(rows: &[Row], title: String) -> Chart<3> {
         ],
     }
 }
+
+/// Marks the resamplings that leave few particles. A name that would be written over the one before is left out.
+fn marks(rows: &[Row]) -> Vec<(f64, &'static str)> {
+    let (first, last) = (rows.first().map_or(0.0, |row| row.time), rows.last().map_or(0.0, |row| row.time));
+    let mut named: Option<f64> = None;
+    let mark = |row: &Row| {
+        let (time, name) = (row.time - first, few(row.left?)?);
+        let is_free = named.is_none_or(|named| time - named > NAME * (last - first));
+        named = if is_free { Some(time) } else { named };
+        Some((time, if is_free { name } else { "" }))
+    };
+    rows.iter().filter_map(mark).collect()
+}
+
+/// The width of a name, as a part of that of the panel.
+const NAME: f64 = 0.15;
 
 /// Names a resampling that leaves few particles.
 fn few(left: usize) -> Option<&'static str> {

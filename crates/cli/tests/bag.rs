@@ -3,7 +3,7 @@
 mod common;
 
 use common::*;
-use mean_information_test_support::formats::bag::{Writer, mcap_of};
+use mean_information_test_support::formats::bag::{Writer, mcap_at, mcap_of};
 use serde_json::Value;
 
 const KEYS: [&str; 5] = ["time_s", "repeats", "changed_cells", "meaningful", "warnings"];
@@ -186,4 +186,29 @@ fn meaninfo_map_measures_the_last_octree() {
     assert!(line.contains("has no topic /other of type nav_msgs/OccupancyGrid; topics of its maps are: /map; of octrees: /octomap"), "{line}");
     assert!(refusal(&["map", one, "--heat-map", "x.png"]).contains("of octrees, which have no picture"));
     assert!(refusal(&["map", file, "--topic", "/octomap"]).contains("is no bag; --topic needs bags"));
+}
+
+/// Sim time begins again: the maps are measured, and the row says so.
+#[test]
+fn a_clock_that_jumps_back_is_told() {
+    let grid = |cell: u8| {
+        let mut message = Writer::new(false, false);
+        message.header([5, 6], "map");
+        [1_u32, 2].iter().for_each(|x| message.number(x.to_le_bytes()));
+        message.floats(&[0.25]);
+        [2_u32, 1].iter().for_each(|x| message.number(x.to_le_bytes()));
+        message.doubles(&[0.5, -2.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
+        message.number(2_u32.to_le_bytes());
+        message.bytes.extend([cell, 100]);
+        message.bytes
+    };
+    let topics = [(7, "/map", "nav_msgs/msg/OccupancyGrid")];
+    let messages = [(7, 9_000_000_000, grid(3)), (7, 2_500_000_000, grid(4))];
+    let folder = Folder::new();
+    let path = folder.write("jump.mcap", mcap_at("cdr", &topics, &messages));
+    let rows = json(&["bag", path.to_str().unwrap()]);
+    assert_eq!(rows.iter().map(|row| row["time_s"].as_f64().unwrap()).collect::<Vec<_>>(), [9.0, 2.5]);
+    assert_eq!(rows[1]["warnings"][0], "the clock jumps back by 6.5 s");
+    let table = stdout(&["bag", path.to_str().unwrap()]);
+    assert!(table.contains("after -6.5 s: the clock jumps back by 6.5 s"), "{table}");
 }

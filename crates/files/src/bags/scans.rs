@@ -153,6 +153,17 @@ impl Robot<'_> {
             .allowing("; allowed are ", "frames of /tf_static"))
     }
 
+    /// Returns the pose of the robot on the frame of which the poses of a topic are; `None` if that frame is the robot's: where
+    /// TF does not connect it and the mount is given, which is on what the poses are of.
+    fn on(&self, child: &str, topic: &str) -> Result<Option<Rigid>, Error> {
+        match self.transforms.way(self.base, child) {
+            Err(_) if self.selection.mount.is_some() => Ok(None),
+            _ => self
+                .fixed(self.base, child, &format!("the robot is, as {topic} has poses of {child}"))
+                .map(Some),
+        }
+    }
+
     /// Returns the trajectories of the robot in the frames that are wanted, at the times of the scans.
     fn in_frames(&self, scans: &[RangeScan]) -> Result<Vec<RecordedTrajectory>, Error> {
         let frames: Vec<&str> = match &self.selection.frames {
@@ -198,13 +209,8 @@ impl Robot<'_> {
 
     /// Returns the trajectory of the robot that a topic has.
     fn by_topic(&self, name: &str, poses: &Poses) -> Result<RecordedTrajectory, Error> {
-        // Where the mount is given, it is on what the poses are of.
-        let own = match &poses.child {
-            Some(child) if child != self.base && self.selection.mount.is_none() => Some(self.fixed(
-                self.base,
-                child,
-                &format!("the robot is, of whose {child} the poses on {name} are"),
-            )?),
+        let own = match poses.child.as_deref() {
+            Some(child) if child != self.base => self.on(child, name)?,
             _ => None,
         };
         let mut tilts = Tilts::default();

@@ -21,3 +21,19 @@ impl Kept {
         Err(refused.with_value(self.0.to_string()).allowing(", allowed are ", MAX_CELLS.to_string()))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn as_many_as_are_allowed_and_no_more() {
+        let mut kept = Kept::default();
+        kept.add(MAX_CELLS as usize - 7).unwrap();
+        kept.add(7).unwrap();
+        let refused = kept.add(3).unwrap_err();
+        let words = "holds more than the limit of ranges and poses, allowed are 268435456";
+        assert_eq!((refused.kind(), refused.to_string().as_str()), (ErrorKind::OutOfMemory, words));
+        assert!(kept.add(usize::MAX).is_err());
+    }
+}

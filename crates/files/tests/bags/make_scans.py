@@ -8,7 +8,7 @@
 Each holds the scans on /scan (sensor_msgs/LaserScan, frame `laser`), the odometry's poses on /tf (`odom` to
 `base_footprint`) and /odom, what corrects them to the log's poses of the laser on /tf (`map` to `odom`), and these poses of
 the robot on /slam_pose and /amcl_pose. By /tf_static the laser is 0.25 m ahead and 0.125 m aside of `base_link`, turned by
-half a radian, and `base_link` 0.1 m above `base_footprint`; poses that the log has of the laser are turned back by that.
+half a radian, and `base_link` 0.1 m above `base_footprint`; the poses of the log, of the laser, are turned back by that.
 A scan, its transforms and its poses have one stamp, the time of the log.
 """
 import math
@@ -86,7 +86,7 @@ def messages(lines, store, ros1):
 
     tf, first = "tf2_msgs/msg/TFMessage", True
     for time, start, step, greatest, ranges, laser, odometry in scans(lines):
-        robot = compose(laser, inverse(MOUNT))
+        robot, odometry = (compose(pose, inverse(MOUNT)) for pose in (laser, odometry))
         if first:
             fixed = [transform(0, "base_footprint", "base_link", (0.0, 0.0, 0.0), 0.1),
                      transform(0, "base_link", "laser", MOUNT, 0.2)]

@@ -224,3 +224,14 @@ fn topics_that_nobody_or_two_declare() {
         "{line}"
     );
 }
+
+/// A topic that says that it has maps, and has text: the length of the text stands where the map has its time.
+#[test]
+fn messages_of_another_type_than_their_topic_says() {
+    let mut text = Writer::new(false, false);
+    text.name("not a map at all");
+    let (error, line) = refused(&mcap("cdr", &[(7, grid()), (7, text.bytes)]));
+    assert_eq!(error.kind(), ErrorKind::Format);
+    assert!(matches!(error.place(), Some(Place::Message { number: 2, byte: Some(_), .. })), "{error:?}");
+    assert!(line.starts_with("message 2 of /map, byte 16 of it: has a field of "), "{line}");
+}

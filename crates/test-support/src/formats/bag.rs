@@ -11,16 +11,25 @@ pub fn record(kind: u8, data: &[&[u8]]) -> Vec<u8> {
     [&[kind][..], &(data.len() as u64).to_le_bytes(), &data].concat()
 }
 
-/// Writes a bag of these topics, each with its number, its name and its type; of the messages, the topic and the bytes.
-pub fn mcap_of(encoding: &str, topics: &[(u16, &str, &str)], messages: &[(u16, Vec<u8>)]) -> Vec<u8> {
+/// A topic: its number, its name and its type.
+pub type Topic<'a> = (u16, &'a str, &'a str);
+
+/// Writes a bag of these topics; of the messages, the topic and the bytes, all recorded at 2500 ns.
+pub fn mcap_of(encoding: &str, topics: &[Topic<'_>], messages: &[(u16, Vec<u8>)]) -> Vec<u8> {
+    let timed: Vec<_> = messages.iter().map(|(id, message)| (*id, 2500, message.clone())).collect();
+    mcap_at(encoding, topics, &timed)
+}
+
+/// Writes a bag of these topics; of the messages, the topic, the time in nanoseconds and the bytes.
+pub fn mcap_at(encoding: &str, topics: &[Topic<'_>], messages: &[(u16, u64, Vec<u8>)]) -> Vec<u8> {
     let mut bytes = b"\x89MCAP0\r\n".to_vec();
     for (id, name, kind) in topics {
         bytes.extend(record(3, &[&id.to_le_bytes(), &text(kind.as_bytes()), &text(b"ros2msg"), &text(b"")]));
         let [name, encoding] = [*name, encoding].map(|name| text(name.as_bytes()));
         bytes.extend(record(4, &[&id.to_le_bytes(), &id.to_le_bytes(), &name, &encoding, &[0; 4]]));
     }
-    for (id, message) in messages {
-        bytes.extend(record(5, &[&id.to_le_bytes(), &[0; 4], &2500_u64.to_le_bytes(), &[0; 8], message]));
+    for (id, time, message) in messages {
+        bytes.extend(record(5, &[&id.to_le_bytes(), &[0; 4], &time.to_le_bytes(), &[0; 8], message]));
     }
     bytes.extend(record(15, &[&[0; 4]]));
     bytes

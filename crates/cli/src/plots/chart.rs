@@ -218,3 +218,44 @@ fn above<B: DrawingBackend>(
     }
     Ok(rest)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plots::Picture;
+
+    /// The horizontal places of the names of so many curves.
+    fn places(curves: usize) -> Vec<u32> {
+        let curve = |k: usize| Curve {
+            name: format!("curve {k}"),
+            colour: Colour::Blue,
+            marks: Marks::Each,
+            points: vec![(0.0, k as f64), (2.0, 0.5)],
+        };
+        let panel = ChartPanel {
+            vertical: "bits",
+            scale: Scale::Linear,
+            curves: (0..curves).map(curve).collect(),
+            marks: Vec::new(),
+        };
+        let chart =
+            Chart { title: String::new(), horizontal: "metres", scale: Scale::Linear, panels: [panel] };
+        let svg = String::from_utf8(chart.draw(Picture::Svg).unwrap()).unwrap();
+        let place = |k| {
+            let (before, _) = svg.split_once(&format!("\ncurve {k}\n")).unwrap();
+            let (_, place) =
+                before.rsplit_once(" x=\"").or_else(|| before.rsplit_once("<text x=\"")).unwrap();
+            place.split_once('"').unwrap().0.parse().unwrap()
+        };
+        (0..curves).map(place).collect()
+    }
+
+    #[test]
+    fn many_names_stand_above_in_columns() {
+        let within = places(WITHIN);
+        assert!(within.iter().all(|&x| x == within[0] && x > WIDTH / 2), "{within:?}");
+        let above = places(WITHIN + 1);
+        assert_eq!(above[..2], above[3..]);
+        assert!(above[0] < above[1] && above[1] < above[2], "{above:?}");
+    }
+}

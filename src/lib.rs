@@ -91,10 +91,11 @@
 //!
 //! The dependencies are `num-traits`, for the vocabulary of generic float code, and with `std` `multiversion`, a macro that
 //! compiles a function for several vector units.
-#![cfg_attr(not(feature = "std"), no_std)]
+// Unit tests have the standard library in any case.
+#![cfg_attr(not(any(test, feature = "std")), no_std)]
 
 extern crate alloc;
-#[cfg(feature = "std")]
+#[cfg(any(test, feature = "std"))]
 extern crate std;
 
 #[cfg(feature = "approx")]

@@ -6,12 +6,6 @@ use common::*;
 use mean_information_files::scans::ScanOptions;
 use mean_information_files::{read_scans, read_trajectory};
 use mean_information_test_support::logs::shared;
-use serde_json::Value;
-
-fn rows(arguments: &[&str]) -> Vec<Value> {
-    let text = stdout(&[&["trajectory"], arguments, &["--format", "json"]].concat());
-    serde_json::from_str(&text).unwrap()
-}
 
 /// The Intel Research Lab's log, where it is there: the rows of the chapter on evidence.
 #[test]

@@ -7,19 +7,10 @@ use common::*;
 use mean_information_test_support::formats::Node;
 use serde_json::Value;
 
-const ROW_KEYS: [&str; 11] = [
-    "k",
-    "resolution_m",
-    "width",
-    "height",
-    "observed",
-    "mean_information",
-    "mean_information_hex",
-    "information_bits",
-    "information_bits_hex",
-    "entropy_bits",
-    "entropy_bits_hex",
-];
+/// The keys of a row.
+fn row_keys() -> Vec<&'static str> {
+    [&["k", "resolution_m", "width", "height", "observed"], KEYS_OF_BITS].concat()
+}
 
 /// The mean occupancies of the k x k blocks from the lower left corner; what lies beyond the map is unknown.
 fn pooled(p: &[f64], width: usize, k: usize) -> Vec<f64> {
@@ -44,7 +35,7 @@ fn rows_are_the_measures_of_pooled_maps() {
     let map = folder.ros_map("room", 5, &GREYS, "scale");
     let text = stdout(&["sweep", &map, "--format", "json"]);
     assert_eq!(keys(&text, 2), ["map", "rows", "warnings"]);
-    assert_eq!(keys(&text, 6), ROW_KEYS.repeat(4));
+    assert_eq!(keys(&text, 6), row_keys().repeat(4));
     let json: Value = serde_json::from_str(&text).unwrap();
     assert_eq!(json["map"], map.as_str());
     let rows = json["rows"].as_array().unwrap();
@@ -100,7 +91,7 @@ fn csv_and_table_say_the_same_as_json() {
     let csv_text = stdout(&["sweep", &map, "--format", "csv"]);
     let mut csv = csv::Reader::from_reader(csv_text.as_bytes());
     let header: Vec<_> = csv.headers().unwrap().iter().map(str::to_owned).collect();
-    assert_eq!(header[1..12], ROW_KEYS);
+    assert_eq!(header[1..12], row_keys());
     assert_eq!((&*header[0], &*header[12]), ("map", "warnings"));
     let table = stdout(&["sweep", &map]);
     for (row, object) in csv.records().map(Result::unwrap).zip(json["rows"].as_array().unwrap()) {

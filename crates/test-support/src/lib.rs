@@ -7,7 +7,8 @@
 //! | [`battery`] | integrals with their values to 32 digits | `tests/library`, `benches/comparison` |
 //! | `formats` | maps made on the spot, and folders for them (feature `formats`) | `crates/files/tests`, `crates/cli/tests` |
 //! | [`properties`] | what fuzzing tries to break | `fuzz`, `crates/files/tests` |
-//! | [`logs`] | public laser logs, where they are there | `tests/library` |
+//! | [`logs`] | public laser logs | `tests/library` |
+//! | [`real_data`] | where real maps and logs are, if they are there | `tests/library`, `crates/files/tests`, `crates/cli/tests` |
 //! | [`timing`] | the time of a call on a machine that others use, too | `benches/peers`, `crates/cli/benches` |
 
 pub mod battery;
@@ -17,4 +18,5 @@ pub mod exact;
 pub mod formats;
 pub mod logs;
 pub mod properties;
+pub mod real_data;
 pub mod timing;

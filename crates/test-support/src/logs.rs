@@ -1,19 +1,6 @@
 //! Public laser logs, where they are there: the least of CARMEN's format that tests need.
 
-use std::path::{Path, PathBuf};
-
-/// Finds a file of the folder of real data: `MEANINFO_SHARED_DATA`, or `../shared/data` beside the checkout. Where the file is
-/// absent it says that the test was skipped.
-pub fn shared(file: &str) -> Option<PathBuf> {
-    let folder = std::env::var_os("MEANINFO_SHARED_DATA")
-        .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data"), PathBuf::from);
-    let path = folder.join(file);
-    if !path.exists() {
-        println!("skipped: {} is absent; MEANINFO_SHARED_DATA names the folder of real data", path.display());
-        return None;
-    }
-    Some(path)
-}
+pub use crate::real_data::shared;
 
 /// One scan of a log: ranges in metres, and two poses of the laser, x, y (metres) and heading (radians).
 #[derive(Clone, Debug)]

@@ -18,6 +18,10 @@ const TITLE_HEIGHT: u32 = 36;
 const PLOT_HEIGHT: f64 = 275.0;
 /// The heights of a line of the legend and of what is around it.
 const LEGEND: [f64; 2] = [22.0, 26.0];
+/// The most names within the frame; more stand in columns above it, where they take less of its height.
+const WITHIN: usize = 4;
+/// The margin beside those above it.
+const SIDE: i32 = 28;
 /// The margin on either side of the points, as a part of their span.
 const MARGINS: [f64; 2] = [0.02, 0.06];
 
@@ -156,8 +160,10 @@ impl<const PANELS: usize> Chart<PANELS> {
         let all = || self.panels.iter().flat_map(|panel| &panel.curves).flat_map(|curve| &curve.points);
         let own = || panel.curves.iter().flat_map(|curve| &curve.points);
         let horizontal = self.scale.axis(all().map(|&(x, _)| self.scale.place(x)), MARGINS[0], 0.0);
+        let named: Vec<_> = panel.curves.iter().filter(|curve| !curve.name.is_empty()).collect();
+        let area = &if named.len() > WITHIN { above(area, &named)? } else { area.clone() };
+        let named = if named.len() > WITHIN { 0 } else { named.len() };
         // The legend takes a part of the height; of the points' span, that much more.
-        let named = panel.curves.iter().filter(|curve| !curve.name.is_empty()).count();
         let legend_height = if named == 0 { 0.0 } else { LEGEND[0] * named as f64 + LEGEND[1] };
         let part = legend_height / PLOT_HEIGHT;
         let free = part / (1.0 - part) * (1.0 + 2.0 * MARGINS[1]);
@@ -185,5 +191,71 @@ impl<const PANELS: usize> Chart<PANELS> {
             curve(&mut chart, name, colour.rgb(), *marks, &points)?;
         }
         if named == 0 { Ok(()) } else { legend(&mut chart) }
+    }
+}
+
+/// Draws the names of curves in columns at the top of a panel; returns the rest of it.
+fn above<B: DrawingBackend>(
+    area: &DrawingArea<B, Shift>,
+    named: &[&Curve],
+) -> Result<DrawingArea<B, Shift>, DrawingAreaErrorKind<B::ErrorType>> {
+    let longest = named.iter().map(|curve| curve.name.chars().count()).max().unwrap_or(0);
+    let width = WIDTH as usize - 2 * SIDE as usize;
+    // A character is at most 10 pixels wide, and the line before a name 40.
+    let columns = (width / (10 * longest + 40)).clamp(1, 3);
+    let line = LEGEND[0] as i32;
+    let (names, rest) = area.split_vertically(line * named.len().div_ceil(columns) as i32 + 8);
+    for (index, Curve { name, colour, marks, .. }) in named.iter().enumerate() {
+        let column = (index % columns * width / columns) as i32;
+        let (x, y) = (SIDE + column, line / 2 + 4 + line * (index / columns) as i32);
+        let colour = colour.rgb();
+        names.draw(&PathElement::new([(x, y), (x + 20, y)], colour.stroke_width(2)))?;
+        if *marks == Marks::Each {
+            names.draw(&Circle::new((x + 10, y), 4, colour.filled()))?;
+        }
+        names.draw(&Polygon::new(marks.outline((x + 10, y)), colour.filled()))?;
+        names.draw(&Text::new(name.clone(), (x + 28, y - 8), LABEL.into_font().color(&BLACK)))?;
+    }
+    Ok(rest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plots::Picture;
+
+    /// The horizontal places of the names of so many curves.
+    fn places(curves: usize) -> Vec<u32> {
+        let curve = |k: usize| Curve {
+            name: format!("curve {k}"),
+            colour: Colour::Blue,
+            marks: Marks::Each,
+            points: vec![(0.0, k as f64), (2.0, 0.5)],
+        };
+        let panel = ChartPanel {
+            vertical: "bits",
+            scale: Scale::Linear,
+            curves: (0..curves).map(curve).collect(),
+            marks: Vec::new(),
+        };
+        let chart =
+            Chart { title: String::new(), horizontal: "metres", scale: Scale::Linear, panels: [panel] };
+        let svg = String::from_utf8(chart.draw(Picture::Svg).unwrap()).unwrap();
+        let place = |k| {
+            let (before, _) = svg.split_once(&format!("\ncurve {k}\n")).unwrap();
+            let (_, place) =
+                before.rsplit_once(" x=\"").or_else(|| before.rsplit_once("<text x=\"")).unwrap();
+            place.split_once('"').unwrap().0.parse().unwrap()
+        };
+        (0..curves).map(place).collect()
+    }
+
+    #[test]
+    fn many_names_stand_above_in_columns() {
+        let within = places(WITHIN);
+        assert!(within.iter().all(|&x| x == within[0] && x > WIDTH / 2), "{within:?}");
+        let above = places(WITHIN + 1);
+        assert_eq!(above[..2], above[3..]);
+        assert!(above[0] < above[1] && above[1] < above[2], "{above:?}");
     }
 }

@@ -6,9 +6,9 @@ use super::chart::Colour;
 use super::drawing::Drawing;
 use super::frame::{Side, curve, frame, legend};
 use super::marks::Marks;
-use super::scale::logarithmic_ticks;
+use super::scale::{logarithmic_ticks, round_step};
 use crate::convergence::{Convergence, GridKind, Series};
-use crate::output::{decimal_exponent, short};
+use crate::output::short;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
@@ -56,9 +56,7 @@ impl<'a> ConvergencePlot<'a> {
         let low = values.iter().copied().fold(f64::INFINITY, f64::min);
         let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let span = (high - low).max(1e-3);
-        let rough = span / 5.0;
-        let decade: f64 = format!("1e{}", decimal_exponent(rough)).parse().unwrap_or(rough);
-        let step = decade * [1.0, 2.0, 5.0, 10.0].into_iter().find(|m| m * decade >= rough).unwrap_or(10.0);
+        let step = round_step(span);
         let (first, last) =
             ((low / step - 0.3).floor(), (high / step + 0.3).ceil().min((1.0 / step).round()));
         let ticks = (first as i64..=last as i64).map(|n| n as f64 * step).collect();

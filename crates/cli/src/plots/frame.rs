@@ -6,6 +6,16 @@ use super::marks::Marks;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
+/// The part of an axis above its highest tick, where the legend of one curve meets it not.
+pub(super) const LEGEND_ROOM: f64 = 0.2;
+
+impl Axis {
+    /// Returns the axis of a mean information, which is from 0 to 1 bit, with room for a legend.
+    pub(super) fn of_bits() -> Self {
+        Self { range: 0.0..1.0 + LEGEND_ROOM, ticks: vec![0.0, 0.2, 0.4, 0.6, 0.8, 1.0] }
+    }
+}
+
 /// A side of the frame: its axis, with a title and labels.
 pub(super) struct Side<'a> {
     pub(super) axis: Axis,

@@ -41,6 +41,13 @@ pub(super) fn logarithmic_ticks(range: &RangeInclusive<f64>) -> Vec<f64> {
     within
 }
 
+/// Returns the least of 1, 2 and 5 times the powers of ten that is at least a fifth of `span`, which is positive and finite.
+pub(super) fn round_step(span: f64) -> f64 {
+    let rough = span / 5.0;
+    let decade: f64 = format!("1e{}", decimal_exponent(rough)).parse().unwrap_or(rough);
+    decade * [1.0, 2.0, 5.0, 10.0].into_iter().find(|m| m * decade >= rough).unwrap_or(10.0)
+}
+
 /// Returns `digits * 10^n` and its text.
 fn decimal(digits: i64, n: i32) -> (f64, String) {
     let x = format!("{digits}e{n}").parse().unwrap_or(f64::NAN);

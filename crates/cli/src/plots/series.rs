@@ -3,17 +3,16 @@
 use super::axis::Axis;
 use super::chart::Colour;
 use super::drawing::Drawing;
-use super::frame::{Side, curve, frame, legend};
+use super::frame::{LEGEND_ROOM, Side, curve, frame, legend};
 use super::marks::Marks;
-use crate::output::{decimal_exponent, short};
+use super::scale::round_step;
+use crate::output::short;
 use crate::series::Series;
 use mean_information_files::trajectory::seconds;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
 const SIZE: (u32, u32) = (900, 780);
-/// The part of an axis above its highest tick, where the legend meets no curve.
-const LEGEND_ROOM: f64 = 0.2;
 /// The most maps that have dots of their own.
 const DOTS: usize = 60;
 
@@ -72,9 +71,7 @@ impl SeriesPlot {
 /// Returns an axis from 0 to at least `end`, with at most six ticks in steps of 1, 2 or 5 times a power of ten.
 fn ticks(end: f64) -> Axis {
     let end = if end > 0.0 && end.is_finite() { end } else { 1.0 };
-    let rough = end / 5.0;
-    let decade: f64 = format!("1e{}", decimal_exponent(rough)).parse().unwrap_or(rough);
-    let step = decade * [1.0, 2.0, 5.0, 10.0].into_iter().find(|m| m * decade >= rough).unwrap_or(10.0);
+    let step = round_step(end);
     let count = (end / step).ceil();
     Axis { range: 0.0..count * step, ticks: (0..=count as u32).map(|k| f64::from(k) * step).collect() }
 }
@@ -91,9 +88,8 @@ impl Drawing for SeriesPlot {
         paper: &DrawingArea<B, Shift>,
     ) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
         let (upper, lower) = paper.split_vertically(SIZE.1 as i32 / 2 - 26);
-        let bits = Axis { range: 0.0..1.0 + LEGEND_ROOM, ticks: vec![0.0, 0.2, 0.4, 0.6, 0.8, 1.0] };
         let words = ["mean information (bits / cell)", "mean information of the observed cells"];
-        self.draw_half(&upper, bits, words, Colour::Blue.rgb(), &self.mean_information)?;
+        self.draw_half(&upper, Axis::of_bits(), words, Colour::Blue.rgb(), &self.mean_information)?;
         let Axis { range, ticks } = ticks(self.area.iter().map(|&(_, area)| area).fold(0.0, f64::max));
         let area = Axis { range: 0.0..(1.0 + LEGEND_ROOM) * range.end, ticks };
         let words = ["observed area (m²)", "area of the observed cells"];

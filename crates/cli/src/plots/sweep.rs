@@ -3,7 +3,7 @@
 use super::axis::{Axis, power_of_ten};
 use super::chart::Colour;
 use super::drawing::Drawing;
-use super::frame::{Side, curve, frame, legend};
+use super::frame::{LEGEND_ROOM, Side, curve, frame, legend};
 use super::marks::Marks;
 use crate::output::short;
 use crate::sweep::{Step, Sweep};
@@ -11,8 +11,6 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 
 const SIZE: (u32, u32) = (900, 780);
-/// The part of an axis above its highest tick, where the legend meets no curve.
-const LEGEND_ROOM: f64 = 0.2;
 const MEAN_INFORMATION: RGBColor = Colour::Blue.rgb();
 const ENTROPY: RGBColor = Colour::Orange.rgb();
 
@@ -84,7 +82,7 @@ impl Drawing for SweepPlot {
         self.draw_half(
             &upper,
             &Half {
-                axis: Axis { range: 0.0..1.0 + LEGEND_ROOM, ticks: vec![0.0, 0.2, 0.4, 0.6, 0.8, 1.0] },
+                axis: Axis::of_bits(),
                 axis_label: "mean information (bits / cell)",
                 label: "mean information of the observed cells",
                 colour: MEAN_INFORMATION,

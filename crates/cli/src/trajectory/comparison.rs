@@ -123,7 +123,7 @@ fn verdict([best, next]: [&str; 2], difference: &Difference) -> String {
         format!("{best} makes the most consistent map: {value:.4} bits per cell above {next}{times}")
     } else {
         format!(
-            "these scans do not tell {best} and {next} apart: {value:.4} bits per cell with a standard error of {error:.4}"
+            "{best} and {next} are not told apart by these scans: {value:.4} bits per cell with a standard error of {error:.4}"
         )
     }
 }

@@ -122,6 +122,18 @@ pub(crate) const MEASURE_KEYS: [&str; 15] = [
     "observed_area_m2_hex",
 ];
 
+/// Of these, the keys that follow the size.
+pub(crate) const KEYS_OF_CELLS: &[&str] = MEASURE_KEYS.split_at(3).1;
+
+/// Of these, the keys of the means and sums in bits.
+pub(crate) const KEYS_OF_BITS: &[&str] = KEYS_OF_CELLS.split_at(6).0;
+
+/// The rows that `meaninfo trajectory` prints as JSON.
+pub(crate) fn rows(arguments: &[&str]) -> Vec<Value> {
+    let text = stdout(&[&["trajectory"], arguments, &["--format", "json"]].concat());
+    serde_json::from_str(&text).unwrap()
+}
+
 /// The keys of indented JSON whose lines are indented by `depth` spaces, in order.
 pub(crate) fn keys(json: &str, depth: usize) -> Vec<&str> {
     let indent = " ".repeat(depth) + "\"";

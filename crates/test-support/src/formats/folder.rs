@@ -1,7 +1,7 @@
-//! Folders: those of a test, and that of real maps.
+//! Folders of tests.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use tempfile::TempDir;
 
 /// A folder that goes when the test ends.
@@ -51,16 +51,4 @@ impl Folder {
         names.sort();
         names
     }
-}
-
-/// Returns the folder of real maps, or prints that the test is skipped: `MEANINFO_SHARED_DATA`, or `../shared/data` beside
-/// the checkout.
-pub fn shared_data() -> Option<PathBuf> {
-    let folder = std::env::var_os("MEANINFO_SHARED_DATA")
-        .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data"), PathBuf::from);
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    println!("skipped: {} is absent; MEANINFO_SHARED_DATA names the folder of real maps", folder.display());
-    None
 }

@@ -8,7 +8,8 @@ mod octree;
 pub mod pbstream;
 mod png;
 
-pub use folder::{Folder, shared_data};
+pub use crate::real_data::shared_data;
+pub use folder::Folder;
 pub use gridmap::{GridMap, gzip};
 pub use map::{npy, pgm, yaml};
 pub use octree::{Node, Seen};

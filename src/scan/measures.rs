@@ -1,6 +1,7 @@
 //! What a map of scans says: Eqs. 2 to 4 over its cells, and the map itself in log-odds or probabilities.
 
 use super::scan_map::ScanMap;
+use super::sums::Sums;
 use crate::cell::Cell;
 use crate::error::Error;
 use crate::map::encoding::{LogOdds, Probability};
@@ -65,8 +66,8 @@ impl<T: Real> ScanMap<T> {
         let mut counts = Repeated::new(cells.end - cells.start, 0);
         let (low, [width, _]) = (sums.seen().low()[1], sums.seen().size());
         for (row, columns) in parts::rows(cells, width, width) {
-            for run in sums.row(low + row as i64)[columns].chunk_by(|a, b| a == b) {
-                if let Some((sum, count)) = count(&mut counts, run[0], run.len() as u64) {
+            for (sum, length) in sums.runs(low + row as i64, columns) {
+                if let Some((sum, count)) = count(&mut counts, sum, length) {
                     tally.add_many(cell(sum), count);
                 }
             }
@@ -121,14 +122,14 @@ impl<T: Real> ScanMap<T> {
     /// Encodes the sums of all cells.
     fn grid<E: Encoding>(&self, stored: impl Fn(i128) -> E::Stored) -> Result<Grid<E>, Error> {
         let ([width, height], geometry) = self.place()?;
-        let sums = self.sums.iter().flat_map(|sums| sums.rows().flatten());
-        let cells = sums.map(|&sum| stored(sum)).collect::<Vec<_>>();
+        let sums = self.sums.iter().flat_map(Sums::log_odds);
+        let cells = sums.map(stored).collect::<Vec<_>>();
         Grid::new(width, height, geometry, cells)
     }
 
     /// Returns the size of the rectangle that was seen, and its place in the world.
     pub(super) fn place(&self) -> Result<([usize; 2], Geometry), Error> {
-        let seen = self.sums.as_ref().map(super::sums::Sums::seen);
+        let seen = self.sums.as_ref().map(Sums::seen);
         let (size, low) = seen.map_or(([0, 0], [0, 0]), |seen| (seen.size(), seen.low()));
         // Rounded once: the number of a column is a float.
         let origin = low.map(|k| k as f64 * self.resolution());

@@ -37,6 +37,24 @@ pub trait InverseSensorModel {
     fn plateau(&self) -> Self::Float {
         Self::Float::zero()
     }
+
+    /// Returns a distance (metres) up to which `occupancy` is at most `p`, for a `p` that is not below the occupancy at 0.
+    /// [`ScanMap::insert`](crate::scan::ScanMap::insert) asks for it at the `p` whose reading is the least it takes, and gives
+    /// that reading to the cells up to there.
+    ///
+    /// Any such distance is valid; the default is the plateau. A distance that is too large gives wrong maps.
+    fn free_until(&self, p: Self::Float) -> Self::Float {
+        let _ = p;
+        self.plateau()
+    }
+
+    /// Returns two distances (metres) from and to which `occupancy` is exactly one number, ends included, and that number.
+    /// [`ScanMap::insert`](crate::scan::ScanMap::insert) gives it to the cells there without asking for theirs.
+    ///
+    /// Any such stretch is valid; the default is none. A stretch that is too long gives wrong maps.
+    fn obstacle(&self) -> Option<([Self::Float; 2], Self::Float)> {
+        None
+    }
 }
 
 /// The model of Eq. 5: a range `z` read with Gaussian noise of standard deviation `σ`,
@@ -141,6 +159,19 @@ impl<T: Real> InverseSensorModel for GaussianSensor<T> {
         }
         plateau
     }
+
+    /// Returns `z - σ √(-2 ln p)`, a little less, for `p < 1/2`: the model says at most `p` there, and does not fall before `z`.
+    /// 0 where that is not so by the roundings.
+    fn free_until(&self, p: T) -> T {
+        if !(p > T::zero() && p < T::HALF) {
+            return T::zero();
+        }
+        let two = T::one() + T::one();
+        let edge = self.range - self.sigma * sqrt(-(two * ln(p)));
+        // A few roundings of the range, and of the root times sigma, which is below it where the edge is not.
+        let edge = edge - self.range * T::from_parts(8, 0) * T::epsilon();
+        if edge > T::zero() && self.occupancy(edge) <= p { edge } else { T::zero() }
+    }
 }
 
 /// The model of steps: free up to the obstacle, occupied over its thickness, unknown behind it
@@ -205,6 +236,10 @@ impl<T: Real> InverseSensorModel for SteppedSensor<T> {
 
     fn reach(&self) -> T {
         self.far
+    }
+
+    fn obstacle(&self) -> Option<([T; 2], T)> {
+        Some(([self.near, self.far], self.occupied))
     }
 
     fn plateau(&self) -> T {

@@ -1,6 +1,6 @@
 //! Angles as turns modulo 1, and their cosine and sine, in integers.
 
-use super::fixed::{mul_high, shift_right};
+use super::fixed::mul_high;
 use crate::real::Real;
 
 /// The number `1 / (2π)`, cut to 1216 bits, the highest first.
@@ -32,6 +32,7 @@ const HALF_PI: u128 = 0x6487_ed51_10b4_611a_6263_3145_c06e_0e69;
 /// Converts a finite angle of `x` radians to turns modulo 1, in units of `2^-128`, within 2 units.
 ///
 /// Sums of turns wrap, as angles do.
+#[inline]
 pub(crate) fn turns(x: f64) -> u128 {
     let (m, e) = x.parts();
     // The bits of 1 / (2π) of weight 2^-(e + 1) to 2^-(e + 192): times m 2^e, they make its fraction and no less than
@@ -51,10 +52,11 @@ pub(crate) fn turns(x: f64) -> u128 {
 }
 
 /// Computes the cosine and the sine of an angle in turns, scale 62, within 0.51 units.
+#[inline]
 pub(crate) fn cos_sin(turns: u128) -> [i64; 2] {
     // The part of a quarter turn, scale 126, and its complement: both functions of the smaller one.
-    let part = turns & ((1 << 126) - 1);
-    let rest = (1 << 126) - part;
+    let part = turns & (QUARTER - 1);
+    let rest = QUARTER - part;
     let [cos, sin] = if part <= rest { cos_sin_of_part(part) } else { swapped(cos_sin_of_part(rest)) };
     // Each quarter turn takes (cos, sin) to (-sin, cos).
     match turns >> 126 {
@@ -66,27 +68,97 @@ pub(crate) fn cos_sin(turns: u128) -> [i64; 2] {
 }
 
 /// Swaps cosine and sine: those of the complement of an angle to a quarter turn.
+#[inline]
 fn swapped([cos, sin]: [i64; 2]) -> [i64; 2] {
     [sin, cos]
 }
 
-/// Computes cosine and sine, scale 62, of at most half of a quarter turn, given as a part of a quarter turn, scale 126.
+/// The number 1, scale 126: a quarter turn, and the radius.
+const QUARTER: u128 = 1 << 126;
+
+/// Cosine and sine, scale 126, in the middle of 128 parts of half of a quarter turn.
+static MIDDLES: [[u128; 2]; 128] = {
+    let mut middles = [[0; 2]; 128];
+    let mut k = 0;
+    while k < 128 {
+        middles[k] = series_of_part((2 * k as u128 + 1) << 117);
+        k += 1;
+    }
+    middles
+};
+
+/// Computes cosine and sine, scale 62, of at most half of a quarter turn, given as a part of a quarter turn, scale 126: what the
+/// series rounds to, mostly without it ([`scan`](crate::book::scan), Theorem (directions)).
+#[inline]
+fn cos_sin_of_part(part: u128) -> [i64; 2] {
+    // Half of the quarter turn itself belongs to the last part.
+    let middle = ((part >> 118) as usize).min(MIDDLES.len() - 1);
+    let from_middle = part as i128 - ((2 * middle as i128 + 1) << 117);
+    let [cos, sin] = turned(MIDDLES[middle], from_middle);
+    // To nearest; the bits that are rounded off decide, unless they are those of one half, or nearly.
+    let is_decided = |x: i128| (x as u64).wrapping_sub((1 << 63) - ANGLE_ERROR) >= 2 * ANGLE_ERROR;
+    if is_decided(cos) && is_decided(sin) { [rounded(cos), rounded(sin)] } else { cos_sin_by_series(part) }
+}
+
+/// Rounds a number of scale 126 to scale 62, to nearest.
+#[inline]
+fn rounded(x: i128) -> i64 {
+    ((x + (1 << 63)) >> 64) as i64
+}
+
+/// Computes what [`cos_sin_of_part`] does, by the series alone.
+#[cold]
+fn cos_sin_by_series(part: u128) -> [i64; 2] {
+    series_of_part(part).map(|x| rounded(x as i128))
+}
+
+/// The error of [`turned`], in units of `2^-126`; that of the series is far below one.
+const ANGLE_ERROR: u64 = 1 << 50;
+
+/// Computes cosine and sine, scale 126, of the angle whose cosine and sine are given, turned by a part of a quarter turn of
+/// magnitude at most `2^117`, scale 126: within `2^48` units ([`scan`](crate::book::scan), Theorem (directions)).
+#[inline]
+fn turned([cos, sin]: [u128; 2], by: i128) -> [i128; 2] {
+    const ONE: u64 = u64::MAX;
+    let product = |a: u64, b: u64| ((u128::from(a) * u128::from(b)) >> 64) as u64;
+    // Radians, scale 135 = 136 + 127 - 128, below 2^127; cut to scale 72, and their square, scale 80.
+    let angle = mul_high(by.unsigned_abs() << 10, HALF_PI << 1);
+    let a = (angle >> 63) as u64;
+    let square = product(a, a);
+    // a - sin a = a (a^2 / 6) (1 - a^2 / 20 (1 - a^2 / 42)): factors of scale 64, the second of scale 80.
+    let factor = ONE - product(product(square, (1 << 48) / 20), ONE - product(square, (1 << 48) / 42));
+    let short = (u128::from(a) * u128::from(product(product(square, u64::MAX / 6), factor))) >> 17;
+    // 1 - cos a = (a^2 / 2) (1 - a^2 / 12 (1 - a^2 / 30)), scale 81.
+    let factor = ONE - product(product(square, (1 << 48) / 12), ONE - product(square, (1 << 48) / 30));
+    let fall = product(square, factor);
+    // sin a, scale 136, times either: scale 126 = 136 + 126 - 128 - 8. The fall: 126 = 64 + 81 - 19.
+    let rise = (angle - short) << 1;
+    let along = |x: u128| (mul_high(x, rise) >> 8) as i128;
+    let across = |x: u128| (((x >> 62) * u128::from(fall)) >> 19) as i128;
+    let (by_cos, by_sin) = if by < 0 { (-along(cos), -along(sin)) } else { (along(cos), along(sin)) };
+    [cos as i128 - across(cos) - by_sin, sin as i128 - across(sin) + by_cos]
+}
+
+/// Computes cosine and sine, scale 126, of at most half of a quarter turn, given as a part of a quarter turn, scale 126.
 ///
 /// Taylor's series goes to the 30th power: the terms left out are below `2^-120`. Each of the 15 steps floors twice, 2
 /// units of `2^-126`.
-fn cos_sin_of_part(part: u128) -> [i64; 2] {
+const fn series_of_part(part: u128) -> [u128; 2] {
     // Radians, and their square, scale 126 = 127 + 127 - 128.
     let angle = mul_high(part << 1, HALF_PI << 1);
     let square = mul_high(angle << 1, angle << 1);
-    // 1 - a^2 / (f (f+1)) (1 - a^2 / ((f+2) (f+3)) (1 - ...)), from f = 1 or 2.
-    let series = |first: u128| {
-        (0..15).rev().map(|k| first + 2 * k).fold(1 << 126, |sum: u128, factor| {
-            (1 << 126) - mul_high(square << 1, sum << 1) / (factor * (factor + 1))
-        })
-    };
-    // From scale 126 to 62, to nearest: half a unit, and next to nothing of the series.
-    let rounded = |x: u128| ((shift_right(x, 63) + 1) >> 1) as i64;
-    [rounded(series(1)), rounded(mul_high(angle << 1, series(2) << 1))]
+    [series(square, 1), mul_high(angle << 1, series(square, 2) << 1)]
+}
+
+/// Computes `1 - a^2 / (f (f+1)) (1 - a^2 / ((f+2) (f+3)) (1 - ...))`, scale 126, from `f = 1` or 2.
+const fn series(square: u128, first: u128) -> u128 {
+    let (mut sum, mut k) = (QUARTER, 15);
+    while k > 0 {
+        k -= 1;
+        let factor = first + 2 * k;
+        sum = QUARTER - mul_high(square << 1, sum << 1) / (factor * (factor + 1));
+    }
+    sum
 }
 
 #[cfg(test)]
@@ -141,6 +213,32 @@ mod tests {
             sum += &term;
         }
         sum << 62
+    }
+
+    /// Angles all over, and those next to the ends of the parts, and to ties: sines of one half.
+    fn part() -> impl Strategy<Value = u128> {
+        prop_oneof![
+            0..=QUARTER / 2,
+            (0_u128..=128, -4_i128..5, 0_u32..118)
+                .prop_map(|(k, off, shift)| (k << 118).saturating_add_signed(off << shift).min(QUARTER / 2)),
+            (0_u32..125, 0_u128..9).prop_map(|(shift, off)| (1 << shift) + off),
+        ]
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(4000))]
+
+        /// The bits of the series rounded, which are those that directions have always had.
+        #[test]
+        fn the_short_way_is_the_series(part in part()) {
+            let series = series_of_part(part);
+            prop_assert_eq!(cos_sin_of_part(part), cos_sin_by_series(part));
+            let middle = ((part >> 118) as usize).min(127);
+            let near = turned(MIDDLES[middle], part as i128 - ((2 * middle as i128 + 1) << 117));
+            for (near, exact) in near.into_iter().zip(series) {
+                prop_assert!(near.abs_diff(exact as i128) < 1 << 48, "{}", near - exact as i128);
+            }
+        }
     }
 
     proptest! {

@@ -24,7 +24,7 @@ pub(super) const SERIES_ERROR: u128 = 1 << 55;
 
 /// Computes `floor(a b / 2^128)`, exactly.
 #[inline]
-pub(crate) fn mul_high(a: u128, b: u128) -> u128 {
+pub(crate) const fn mul_high(a: u128, b: u128) -> u128 {
     const LOW: u128 = u64::MAX as u128;
     // a b = a1 b1 2^128 + (a1 b0 + a0 b1) 2^64 + a0 b0; neither sum of a product and a high half exceeds 2^128.
     let (a1, a0, b1, b0) = (a >> 64, a & LOW, b >> 64, b & LOW);

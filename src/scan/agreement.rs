@@ -2,6 +2,7 @@
 
 use super::layer::Layer;
 use super::scan_map::ScanMap;
+use super::sums::Sums;
 use crate::error::Error;
 use crate::real::Real;
 use crate::rounded::{NaturalNumber, round_log_odds, round_quotient};
@@ -37,7 +38,7 @@ impl<T: Real> ScanMap<T> {
         }
         // Below 2^127 each, of less than 2^64 cells: in 192 bits.
         let mut sums = [[0_u128; 2]; 2];
-        for (sum, magnitude) in self.sums.iter().filter_map(|sums| sums.pairs()).flatten() {
+        for (sum, magnitude) in self.sums.iter().filter_map(Sums::pairs).flatten() {
             for ([low, high], more) in sums.iter_mut().zip([sum.unsigned_abs(), magnitude.unsigned_abs()]) {
                 let carry;
                 (*low, carry) = low.overflowing_add(more);
@@ -75,7 +76,7 @@ impl<T: Real> ScanMap<T> {
             return Ok(None);
         }
         let (size, geometry) = self.place()?;
-        let pairs = self.sums.iter().filter_map(|sums| sums.pairs()).flatten();
+        let pairs = self.sums.iter().filter_map(Sums::pairs).flatten();
         // A sum of magnitudes is no less than the magnitude of the sum: exactly, as integers.
         let cells = pairs.map(|(sum, magnitude)| round_log_odds(magnitude - sum.abs())).collect();
         Ok(Some(Layer::new(size, geometry, cells)))

@@ -1,6 +1,5 @@
 //! A scan of a range sensor in the plane: the pose of the sensor, and what its beams returned.
 
-use super::direction::Direction;
 use super::pose::Pose;
 use crate::error::{Error, positive};
 use crate::real::Real;
@@ -72,13 +71,5 @@ impl<T: Real> Scan<T> {
     /// Returns the beams, in the order in which they were given.
     pub fn beams(&self) -> &[Beam<T>] {
         &self.beams
-    }
-
-    /// Returns the direction of a beam in the world: that of the exact sum of heading and bearing.
-    ///
-    /// # Errors
-    /// Never for a beam of this scan, whose bearing is finite.
-    pub(super) fn direction(&self, beam: &Beam<T>) -> Result<Direction, Error> {
-        Direction::new(&[self.pose.theta(), beam.bearing])
     }
 }

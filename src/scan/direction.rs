@@ -35,9 +35,22 @@ impl Direction {
             // In units of 2^-128 turns, within 2 of them, which wrap as angles do: `scan.md`, "Which cells", 1.
             sum = sum.wrapping_add(rounded::turns(value));
         }
+        Ok(Self::of_turns(sum))
+    }
+
+    /// Finds the direction of an angle in turns modulo 1, in units of `2^-128`.
+    #[inline]
+    pub(super) fn of_turns(turns: u128) -> Self {
         // To units of 2^-62, within 0.51 of them.
-        let [cos, sin] = rounded::cos_sin(sum);
-        Ok(Self { cos, sin })
+        let [cos, sin] = rounded::cos_sin(turns);
+        Self { cos, sin }
+    }
+
+    /// Returns how far a length goes along the axis along which it goes further, cut: within 2 units.
+    #[inline]
+    pub(super) fn longer_part(self, length: u64) -> u64 {
+        let part = self.cos.unsigned_abs().max(self.sin.unsigned_abs());
+        ((u128::from(length) * u128::from(part)) >> 62) as u64
     }
 
     /// Returns the cosine: an integer of units of `2^-62` rounded once to nearest ([`scan`](crate::book::scan)).

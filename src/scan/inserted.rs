@@ -61,6 +61,7 @@ pub(super) struct Print(u64);
 
 impl Print {
     /// Mixes words into a print, in their order.
+    #[inline]
     pub(super) fn of(words: &[u64]) -> Self {
         // Multiplications and shifts as in the finalizer of MurmurHash3 (Appleby, public domain).
         let mixed = words.iter().fold(0x9e37_79b9_7f4a_7c15_u64, |print, word| {

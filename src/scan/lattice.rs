@@ -2,7 +2,7 @@
 
 use super::direction::Direction;
 use crate::real::Real;
-use crate::rounded::{Coordinate, distance};
+use crate::rounded::{Coordinate, distance, normalised};
 
 /// The number of units of a cell's side, as an exponent of two.
 pub(super) const FRACTION: u32 = 28;
@@ -11,10 +11,18 @@ const UNITS: f64 = (1_u64 << FRACTION) as f64;
 /// Places stay below this in magnitude: `2^33` cells, so that differences fit 62 bits and their products 124.
 const END: u64 = 1 << (33 + FRACTION);
 
+/// The lower half of 128 bits.
+const LOW: u128 = u64::MAX as u128;
+
 /// The lattice of a grid with cells of this side in metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Lattice {
     resolution: f64,
+    /// The resolution is `m 2^exponent`, `2^52 <= m < 2^53`, and this is `floor(2^179 / m)`: above `2^126`.
+    inverse: u128,
+    exponent: i32,
+    /// The number of units of a metre, less up to a part in `2^49`.
+    units_per_metre: f64,
 }
 
 /// A point of the lattice: x and y.
@@ -23,7 +31,15 @@ pub(super) type Point = [i64; 2];
 impl Lattice {
     /// Creates the lattice of a resolution that is positive and finite.
     pub(super) fn new(resolution: f64) -> Self {
-        Self { resolution }
+        let (m, exponent) = normalised(resolution);
+        let m = u128::from(m);
+        // Long division by two digits, of 127 and of 52 bits.
+        let (high, rest) = ((1 << 127) / m, (1 << 127) % m);
+        // Next to the largest float and to the smallest, where it has fewer bits, there are no units within a metre.
+        let units = UNITS / resolution;
+        let units_per_metre =
+            if units.is_normal() && units < f64::MAX { units * (1.0 - 6.0 * f64::EPSILON) } else { 0.0 };
+        Self { resolution, inverse: (high << 52) + (rest << 52) / m, exponent, units_per_metre }
     }
 
     /// Returns the side of a cell, in metres.
@@ -37,12 +53,38 @@ impl Lattice {
         self.signed(u128::from(m), e, x < 0.0)
     }
 
-    /// Finds the lattice point nearest to the one at `distance` metres from `start`; `None` beyond [`END`].
+    /// Finds the lattice point nearest to the one at `distance` metres from `start`, a positive float; `None` beyond [`END`].
+    #[inline]
     pub(super) fn along(self, start: Point, direction: Direction, distance: f64) -> Option<Point> {
         let (m, e) = distance.parts();
+        // The quotient by the resolution times 2^115, exponents aside, short by less than 2; and its product with a coordinate,
+        // in units of 2^-(85 + exponent - e), short by less than 2: `scan.md`, Theorem (ends).
+        let [high, low] = [self.inverse >> 64, self.inverse & LOW];
+        let quotient = u128::from(m) * high + ((u128::from(m) * low) >> 64);
+        let [high, low] = [quotient >> 64, quotient & LOW];
+        let shift = self.exponent - e + (85 - 64);
         let coordinate = |start: i64, unit: i64| {
-            // A significand below 2^53 times units of 2^-62, exactly; the one rounding is that to the lattice:
-            // `scan.md`, "Which cells", 2.
+            let magnitude = u128::from(unit.unsigned_abs());
+            let product = high * magnitude + ((low * magnitude) >> 64);
+            let moved = match decided(product, shift) {
+                Some(moved) if unit < 0 => -moved,
+                Some(moved) => moved,
+                // A significand below 2^53 times units of 2^-62, exactly; the one rounding is that to the lattice:
+                // `scan.md`, "Which cells", 2.
+                None => self.signed(u128::from(m) * magnitude, e - 62, unit < 0)?,
+            };
+            let moved = start + moved;
+            (moved.unsigned_abs() <= END).then_some(moved)
+        };
+        let [cos, sin] = direction.units();
+        Some([coordinate(start[0], cos)?, coordinate(start[1], sin)?])
+    }
+
+    /// Finds what [`along`](Self::along) does from the exact quotients alone.
+    #[cfg(test)]
+    pub(super) fn along_exactly(self, start: Point, direction: Direction, distance: f64) -> Option<Point> {
+        let (m, e) = distance.parts();
+        let coordinate = |start: i64, unit: i64| {
             let product = u128::from(m) * u128::from(unit.unsigned_abs());
             let moved = start + self.signed(product, e - 62, unit < 0)?;
             (moved.unsigned_abs() <= END).then_some(moved)
@@ -60,17 +102,35 @@ impl Lattice {
     }
 
     /// Converts metres to units, rounded down by a part in `2^49` and two units at most; 0 for NaN, at most `2^62`.
+    #[inline]
     pub(super) fn units_within(self, metres: f64) -> u64 {
-        // The quotient and the last product round up by half an ulp each, at most.
-        (((metres / self.resolution) * UNITS * (1.0 - 4.0 * f64::EPSILON)) as u64).min(2 * END)
+        // Three roundings up by half an ulp each, at most.
+        ((metres * self.units_per_metre) as i64).clamp(0, 2 * END as i64) as u64
     }
 
-    /// Tells whether the centre of a cell is at most `units` units from a point, at most `2^62`: exactly.
+    /// Converts metres to the square of units that are no fewer, for a comparison with
+    /// [`square_to_centre`](Self::square_to_centre): at most a part in `2^49` and two units more; the largest integer from `2^62`
+    /// units on, and for an infinity; 0 below 0, and for NaN.
     #[inline]
-    pub(super) fn is_within(from: Point, cell: [i64; 2], units: u64) -> bool {
-        let [x, y] = offset_of_centre(from, cell).map(|offset| u128::from(offset.unsigned_abs()));
+    pub(super) fn square_beyond(self, metres: f64) -> u128 {
+        if !(metres > 0.0) {
+            return 0;
+        }
+        let units = self.units_within(metres);
+        if units == 2 * END || self.units_per_metre == 0.0 {
+            return u128::MAX;
+        }
+        let units = u128::from(units + (units >> 49) + 2);
+        units * units
+    }
+
+    /// Computes the square of the distance of a point from the centre of a cell, in units: exactly, below `2^125`.
+    #[inline]
+    pub(super) fn square_to_centre(from: Point, cell: [i64; 2]) -> u128 {
         // Below 2^62 each: no product leaves 128 bits, and nothing is rounded.
-        x * x + y * y <= u128::from(units) * u128::from(units)
+        let [x, y] = offset_of_centre(from, cell);
+        let square = |offset: i64| u128::from(offset.unsigned_abs()) * u128::from(offset.unsigned_abs());
+        square(x) + square(y)
     }
 
     /// Computes the distance in metres of a point from the centre of a cell: the nearest float, ties to even.
@@ -83,10 +143,25 @@ impl Lattice {
     }
 }
 
+/// Rounds `x 2^-(64 + shift)` to nearest, for an `x` below `2^117` that may be short by less than 2; `None` where its bits do not
+/// decide it, the shift is not one of 0 to 63, or the result is not below [`END`].
+#[inline]
+fn decided(x: u128, shift: i32) -> Option<i64> {
+    if !(0..64).contains(&shift) {
+        return None;
+    }
+    // Short by less than 3, in units of 2^-64.
+    let x = x >> shift;
+    let (whole, part) = ((x >> 64) as u64, x as u64);
+    let is_decided = part.wrapping_sub((1 << 63) - 3) > 3 && whole < END;
+    is_decided.then_some((whole + (part >> 63)) as i64)
+}
+
 /// Returns how far the centre of a cell is from a point, in units.
 #[inline]
 fn offset_of_centre(from: Point, cell: [i64; 2]) -> Point {
-    [0, 1].map(|k| (cell[k] << FRACTION) + (1 << (FRACTION - 1)) - from[k])
+    let offset = |k: usize| (cell[k] << FRACTION) + (1 << (FRACTION - 1)) - from[k];
+    [offset(0), offset(1)]
 }
 
 /// Computes `n 2^e / divisor`, rounded to nearest, ties to even; `None` from about `2^75`. `n` below `2^127`, `divisor` below
@@ -196,15 +271,44 @@ mod tests {
             prop_assert!(more * big(resolution) >= exact);
         }
 
+        /// No nearer than the metres, and further by two units and two parts in `2^49` at most.
+        #[test]
+        fn squares_are_beyond_their_metres(metres in small(), resolution in prop_oneof![0.1_f64..10.0, Just(0.25)]) {
+            let square = BigInt::from(Lattice::new(resolution).square_beyond(metres));
+            let big = |x: f64| {
+                let (m, e) = x.parts();
+                BigInt::from(m) << (e + 1074)
+            };
+            let exact = big(metres.max(0.0)) << FRACTION;
+            prop_assert!(&square * big(resolution).pow(2) >= exact.pow(2));
+            let less = BigInt::from(square.sqrt()) - 2;
+            prop_assert!(&less - (&less >> 48) <= exact / big(resolution));
+        }
+
         /// As the distance says, which is a float: but for what it rounds.
         #[test]
-        fn within_is_not_beyond(x in -1_i64 << 40..1 << 40, y in -1_i64 << 40..1 << 40, column in -99_i64..99, row in -99_i64..99, plateau in 0.0_f64..40.0) {
+        fn squares_are_those_of_distances(x in -1_i64 << 40..1 << 40, y in -1_i64 << 40..1 << 40, column in -99_i64..99, row in -99_i64..99, metres in 0.0_f64..40.0) {
             let lattice = Lattice::new(0.3);
-            let units = lattice.units_within(plateau);
+            let square = Lattice::square_to_centre([x, y], [column, row]);
             let rho = lattice.distance_to_centre([x, y], [column, row]);
-            let is_within = Lattice::is_within([x, y], [column, row], units);
-            prop_assert!(!is_within || rho <= plateau);
-            prop_assert!(is_within || rho >= plateau - 1e-8);
+            let units = u128::from(lattice.units_within(metres));
+            prop_assert!(square > units * units || rho <= metres);
+            prop_assert!(square < lattice.square_beyond(metres) || rho >= metres);
+            prop_assert!(square > units * units || square <= lattice.square_beyond(metres));
+            prop_assert!(square <= units * units || rho >= metres - 1e-8);
+        }
+
+        /// The bits of the exact quotient rounded once, with directions along the axes and lengths that end in the middle of two
+        /// places.
+        #[test]
+        fn ends_are_those_of_the_exact_quotient(
+            angle in prop_oneof![-9.0_f64..9.0, Just(0.0), (0_i32..200).prop_map(|k| f64::from(k) * 0.0174)],
+            distance in prop_oneof![small(), 0.0_f64..100.0].prop_map(f64::abs),
+            resolution in prop_oneof![0.001_f64..10.0, Just(0.25), Just(0.05), Just(1e-300), Just(f64::from_bits(77))],
+            start in [-1_i64 << 50..1 << 50, -1_i64 << 50..1 << 50],
+        ) {
+            let (lattice, direction) = (Lattice::new(resolution), Direction::new(&[angle]).unwrap());
+            prop_assert_eq!(lattice.along(start, direction, distance), lattice.along_exactly(start, direction, distance));
         }
     }
 
@@ -213,12 +317,16 @@ mod tests {
         let lattice = Lattice::new(0.3);
         let units = [f64::NAN, -3.0, 0.0, f64::INFINITY, f64::MAX].map(|metres| lattice.units_within(metres));
         assert_eq!(units, [0, 0, 0, 1 << 62, 1 << 62]);
-        assert!(
-            Lattice::is_within([1 << 27, 1 << 27], [0, 0], 0) && !Lattice::is_within([1 << 27, 1], [0, 0], 0)
-        );
-        // 3, 4, 5: the end belongs to it.
-        let from = [(1 << 27) - 3, (1 << 27) + 4];
-        assert_eq!([4, 5].map(|units| Lattice::is_within(from, [0, 0], units)), [false, true]);
+        let beyond =
+            [f64::NAN, -3.0, 0.0, f64::INFINITY, f64::MAX].map(|metres| lattice.square_beyond(metres));
+        assert_eq!(beyond, [0, 0, 0, u128::MAX, u128::MAX]);
+        for resolution in [f64::from_bits(1), 1e-310, f64::MAX] {
+            let beyond = Lattice::new(resolution).square_beyond(resolution);
+            assert!(beyond >= 1 << (2 * FRACTION), "{resolution:e}");
+        }
+        assert_eq!(Lattice::square_to_centre([1 << 27, 1 << 27], [0, 0]), 0);
+        // 3, 4, 5.
+        assert_eq!(Lattice::square_to_centre([(1 << 27) - 3, (1 << 27) + 4], [0, 0]), 25);
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use super::raster::Area;
 use super::scan_map::ScanMap;
+use super::sums::Sums;
 use crate::cell::Cell;
 use crate::error::Error;
 use crate::map::encoding::{LogOdds, Probability};
@@ -66,8 +67,8 @@ impl<T: Real> ScanMap<T> {
         let mut counts = Repeated::new(cells.end - cells.start, 0);
         let (low, [width, _]) = (sums.seen().low()[1], sums.seen().size());
         for (row, columns) in parts::rows(cells, width, width) {
-            for run in sums.row(low + row as i64)[columns].chunk_by(|a, b| a == b) {
-                if let Some((sum, count)) = count(&mut counts, run[0], run.len() as u64) {
+            for (sum, length) in sums.runs(low + row as i64, columns) {
+                if let Some((sum, count)) = count(&mut counts, sum, length) {
                     tally.add_many(cell(sum), count);
                 }
             }
@@ -141,14 +142,14 @@ impl<T: Real> ScanMap<T> {
     /// Encodes the sums of all cells.
     fn grid<E: Encoding>(&self, stored: impl Fn(i128) -> E::Stored) -> Result<Grid<E>, Error> {
         let ([width, height], geometry) = self.place()?;
-        let sums = self.sums.iter().flat_map(|sums| sums.rows().flatten());
-        let cells = sums.map(|&sum| stored(sum)).collect::<Vec<_>>();
+        let sums = self.sums.iter().flat_map(Sums::log_odds);
+        let cells = sums.map(stored).collect::<Vec<_>>();
         Grid::new(width, height, geometry, cells)
     }
 
     /// Returns the size of the rectangle that was seen, and its place in the world.
     pub(super) fn place(&self) -> Result<([usize; 2], Geometry), Error> {
-        self.place_of(self.sums.as_ref().map(super::sums::Sums::seen))
+        self.place_of(self.sums.as_ref().map(Sums::seen))
     }
 
     /// Returns the size of a rectangle of cells of this resolution, and its place in the world.

@@ -17,6 +17,8 @@
 
 mod agreement;
 mod beams;
+mod columns;
+mod counts;
 mod direction;
 mod inserted;
 mod jackknife;
@@ -27,9 +29,13 @@ mod particles;
 mod pose;
 mod raster;
 mod rays;
+mod readings;
+#[cfg(test)]
+mod reference;
 mod scan_map;
 mod sums;
 mod tallied;
+mod totals;
 mod traversal;
 
 pub use beams::{Beam, Scan};

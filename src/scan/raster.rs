@@ -18,10 +18,11 @@ impl Area {
     }
 
     /// Returns the least area that holds both.
+    #[inline]
     pub(super) fn union(self, other: Self) -> Self {
         Self {
-            low: [0, 1].map(|k| self.low[k].min(other.low[k])),
-            high: [0, 1].map(|k| self.high[k].max(other.high[k])),
+            low: [self.low[0].min(other.low[0]), self.low[1].min(other.low[1])],
+            high: [self.high[0].max(other.high[0]), self.high[1].max(other.high[1])],
         }
     }
 
@@ -39,6 +40,11 @@ impl Area {
             }
         };
         Self { low: [low(0), low(1)], high: [high(0), high(1)] }
+    }
+
+    /// Returns the numbers of the rows, from the lowest.
+    pub(super) fn rows(self) -> core::ops::Range<i64> {
+        self.low[1]..self.high[1]
     }
 
     /// Returns the column and the row of the lowest cell.
@@ -120,8 +126,7 @@ impl<C: Copy> Raster<C> {
 
     /// Returns where the cells of a row that lie in `area` are stored.
     fn range(&self, area: Area, row: i64) -> core::ops::Range<usize> {
-        let [width, _] = self.area.size();
-        let start = (row - self.area.low[1]) as usize * width + (area.low[0] - self.area.low[0]) as usize;
+        let start = self.index([area.low[0], row]);
         start..start + area.size()[0]
     }
 
@@ -131,19 +136,47 @@ impl<C: Copy> Raster<C> {
     }
 
     /// Returns the part of a row that lies in `area`, which the raster must hold, to be changed.
-    fn row_mut(&mut self, area: Area, row: i64) -> &mut [C] {
+    pub(super) fn row_mut(&mut self, area: Area, row: i64) -> &mut [C] {
         let range = self.range(area, row);
         &mut self.cells[range]
     }
 
+    /// Returns the place in the raster of a cell, which it must hold.
+    #[inline]
+    pub(super) fn index(&self, [column, row]: [i64; 2]) -> usize {
+        let [width, _] = self.area.size();
+        (row - self.area.low[1]) as usize * width + (column - self.area.low[0]) as usize
+    }
+
+    /// Returns how far it is in the raster to the next cell along an axis, or back.
+    #[inline]
+    pub(super) fn stride(&self, axis: usize, is_forward: bool) -> isize {
+        let stride = if axis == 0 { 1 } else { self.area.size()[0] as isize };
+        if is_forward { stride } else { -stride }
+    }
+
+    /// Sets the value at a place in the raster.
+    #[inline]
+    pub(super) fn set(&mut self, index: usize, value: C) {
+        self.cells[index] = value;
+    }
+
+    /// Returns the value at a place in the raster.
+    pub(super) fn at(&self, index: usize) -> C {
+        self.cells[index]
+    }
+
     /// Returns the value of a cell, which the raster must hold.
-    pub(super) fn cell(&self, [column, row]: [i64; 2]) -> &C {
-        &self.row(Area::of_cell([column, row]), row)[0]
+    #[inline]
+    pub(super) fn cell(&self, cell: [i64; 2]) -> &C {
+        &self.cells[self.index(cell)]
     }
 
     /// Returns the value of a cell, which the raster must hold, to be changed.
-    pub(super) fn cell_mut(&mut self, [column, row]: [i64; 2]) -> &mut C {
-        &mut self.row_mut(Area::of_cell([column, row]), row)[0]
+    #[inline]
+    pub(super) fn cell_mut(&mut self, cell: [i64; 2]) -> &mut C {
+        let index = self.index(cell);
+        &mut self.cells[index]
     }
 
     /// Replaces the value of each cell of an area, which the raster must hold.

@@ -2,20 +2,24 @@
 //! at the distance of each cell's centre, once for each cell.
 
 use super::beams::{Beam, Scan};
+use super::columns;
+use super::direction::Direction;
 use super::inserted::Print;
-use super::lattice::{Lattice, Point};
-use super::raster::{Area, Raster};
+use super::lattice::{FRACTION, Lattice, Point};
+use super::raster::Area;
+use super::readings::{Drafts, Limit, Readings};
 use super::traversal::{Traversal, cell_of};
 use crate::cell;
 use crate::error::Error;
 use crate::real::Real;
-use crate::rounded::fixed_log_odds;
+use crate::rounded::turns;
 use crate::sensor::InverseSensorModel;
 use alloc::vec::Vec;
 
 /// The beams of one scan as segments from one point.
 pub(super) struct Rays<M: InverseSensorModel> {
     lattice: Lattice,
+    limit: Limit<M::Float>,
     start: Point,
     /// The rectangle that holds the cells of the start and of all ends.
     area: Area,
@@ -30,23 +34,17 @@ struct Segment<M: InverseSensorModel> {
     /// The occupancy of cells whose centre is at most `plateau` units of the lattice from the sensor.
     nearest: M::Float,
     plateau: u64,
+    /// Cells that the segment leaves within so many units along its longer axis are among them.
+    sure: u64,
+    /// The squares of the distances from and to which cells have the occupancy `wall`, in units; 1 to 0 if there are none.
+    obstacle: [u128; 2],
+    wall: M::Float,
+    /// The square of a distance beyond which nothing is observed.
+    reach: u128,
 }
 
-/// The reading of one cell by one scan: log-odds in units of `2^-80` nats, not 0.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Reading {
-    pub(super) cell: [i64; 2],
-    pub(super) log_odds: i128,
-}
-
-/// The reading of a cell by the beams so far.
-#[derive(Clone, Copy)]
-struct Draft<T> {
-    /// The distance of its centre from the sensor, once a beam asks for it: beams are many where cells are near. NaN
-    /// before.
-    rho: T,
-    p: T,
-}
+/// The part of a cell, in units, within which the centres of cells are that a segment crosses: above `√(1/2)`.
+const TO_CENTRE: u64 = 3 << (FRACTION - 2);
 
 impl<T: Real, M: InverseSensorModel<Float = T>> Rays<M> {
     /// Places the beams of a scan on the lattice, each with the model of its range.
@@ -55,18 +53,22 @@ impl<T: Real, M: InverseSensorModel<Float = T>> Rays<M> {
     /// What `model` refuses; a place beyond the lattice.
     pub(super) fn new(
         lattice: Lattice,
+        limit: Limit<T>,
         scan: &Scan<T>,
         model: impl Fn(T) -> Result<M, Error>,
     ) -> Result<Self, Error> {
         let start = start(lattice, scan)?;
+        let heading = turns(scan.pose().theta());
         let mut segments = Vec::with_capacity(scan.beams().len());
         let mut area = Area::of_cell(cell_of(start));
         for (index, beam) in scan.beams().iter().enumerate() {
-            let segment = segment(lattice, scan, beam, start, &model, index)?;
+            // That of the exact sum of heading and bearing.
+            let direction = Direction::of_turns(heading.wrapping_add(turns(beam.bearing)));
+            let segment = segment(lattice, &limit, scan, beam, direction, start, &model, index)?;
             area = area.union(Area::of_cell(cell_of(segment.end)));
             segments.push(segment);
         }
-        Ok(Self { lattice, start, area, segments })
+        Ok(Self { lattice, limit, start, area, segments })
     }
 
     /// Returns the rectangle of cells that the beams cross.
@@ -84,52 +86,52 @@ impl<T: Real, M: InverseSensorModel<Float = T>> Rays<M> {
         })
     }
 
-    /// Finds what the scan says of each cell, the log-odds limited to `-limit..=limit` units: each cell once, those at 1/2 left
-    /// out.
+    /// Finds what the scan says of each cell, the log-odds limited: each cell once, those at 1/2 left out.
     ///
     /// # Errors
     /// [`Error::Item`] naming a beam whose model gives no occupancy; [`Error::TooManyCells`] if there is no memory.
-    pub(super) fn readings(&self, limit: i128, max_cells: u64) -> Result<Vec<Reading>, Error> {
-        let mut drafts = Raster::new(self.area, Draft { rho: T::nan(), p: T::HALF }, max_cells)?;
-        // The cells that are not at 1/2: a hundredth of the rectangle where beams are few.
-        let mut touched = Vec::new();
+    pub(super) fn readings(&self, max_cells: u64) -> Result<Readings, Error> {
+        let is_free = |segment: &&Segment<M>| {
+            segment.sure > 0 && segment.nearest < T::HALF && cell::in_unit_interval(segment.nearest)
+        };
+        let free = self.segments.iter().find(is_free).map_or(T::nan(), |segment| segment.nearest);
+        let mut drafts = Drafts::new(self.area, free, max_cells)?;
         for (index, segment) in self.segments.iter().enumerate() {
-            for cell in Traversal::new(self.start, segment.end) {
-                let draft = drafts.cell_mut(cell);
-                // Where the model is level, nobody needs the distance; `scan.md`, "What a beam says of a cell".
-                let p = if Lattice::is_within(self.start, cell, segment.plateau) {
-                    segment.nearest
-                } else {
-                    if draft.rho.is_nan() {
-                        // The nearest float on the lattice, in f32 rounded once more.
-                        draft.rho = T::nearest(self.lattice.distance_to_centre(self.start, cell));
-                    }
-                    segment.model.occupancy(draft.rho)
-                };
+            let rest = match drafts.free(segment.nearest) {
+                Some(raster) => columns::mark(self.start, segment.end, segment.sure, raster),
+                None => Traversal::new(self.start, segment.end),
+            };
+            for cell in rest {
+                let p = self.occupancy(segment, cell);
                 if !cell::in_unit_interval(p) {
                     let what = "occupancy by the model of beam";
                     return Err(Error::Item { what, index, value: p.widen(), allowed: "0 to 1" });
                 }
                 // A beam without return says where it is free, and nothing else.
                 if p != T::HALF && (segment.is_return || p < T::HALF) {
-                    if draft.p == T::HALF {
-                        touched.push(cell);
-                    }
-                    draft.p = stronger(draft.p, p);
+                    drafts.say(cell, self.limit.canonical(p));
                 }
             }
         }
-        // Neighbours often have the same.
-        let mut last = (T::HALF, 0);
-        let reading = |cell| {
-            let p = drafts.cell(cell).p;
-            if p != last.0 {
-                // From floats to units of 2^-80 nats, within 2^4 of them: `scan.md`, "The sum".
-                last = (p, fixed_log_odds(p).clamp(-limit, limit));
-            }
-            Reading { cell, log_odds: last.1 }
-        };
-        Ok(touched.into_iter().map(reading).collect())
+        Ok(drafts.readings(&self.limit))
+    }
+
+    /// Returns what a beam says of a cell that it crosses: what its model says at the distance of the centre. Where the model is
+    /// level, nobody needs the distance (`scan.md`, "What a beam says of a cell").
+    #[inline]
+    fn occupancy(&self, segment: &Segment<M>, cell: [i64; 2]) -> T {
+        let square = Lattice::square_to_centre(self.start, cell);
+        let [near, far] = segment.obstacle;
+        if square <= u128::from(segment.plateau) * u128::from(segment.plateau) {
+            segment.nearest
+        } else if near <= square && square <= far {
+            segment.wall
+        } else if square > segment.reach {
+            T::HALF
+        } else {
+            // The nearest float on the lattice, in f32 rounded once more.
+            segment.model.occupancy(T::nearest(self.lattice.distance_to_centre(self.start, cell)))
+        }
     }
 }
 
@@ -143,16 +145,22 @@ fn start<T: Real>(lattice: Lattice, scan: &Scan<T>) -> Result<Point, Error> {
 }
 
 /// Places one beam, with the model of its range.
+#[allow(clippy::too_many_arguments)]
+#[inline]
 fn segment<T: Real, M: InverseSensorModel<Float = T>>(
     lattice: Lattice,
+    limit: &Limit<T>,
     scan: &Scan<T>,
     beam: &Beam<T>,
+    direction: Direction,
     start: Point,
     model: impl Fn(T) -> Result<M, Error>,
     index: usize,
 ) -> Result<Segment<M>, Error> {
     let model = model(beam.range.unwrap_or(scan.maximum_range()))?;
-    let length = if beam.range.is_some() { model.reach() } else { scan.maximum_range() }.widen();
+    let is_return = beam.range.is_some();
+    let reach = model.reach();
+    let length = if is_return { reach } else { scan.maximum_range() }.widen();
     let far = || Error::Item {
         what: "reach of beam",
         index,
@@ -162,16 +170,27 @@ fn segment<T: Real, M: InverseSensorModel<Float = T>>(
     if !(length >= 0.0 && length.is_finite()) {
         return Err(far());
     }
-    let end = lattice.along(start, scan.direction(beam)?, length).ok_or_else(far)?;
-    // The plateau takes some time to find: not for one that ends within a cell.
+    let end = lattice.along(start, direction, length).ok_or_else(far)?;
     let nearest = model.occupancy(T::zero());
-    let is_flat = model.occupancy(T::nearest(lattice.resolution())) == nearest;
-    let plateau = if is_flat { lattice.units_within(model.plateau().widen()) } else { 0 };
-    Ok(Segment { end, model, is_return: beam.range.is_some(), nearest, plateau })
-}
-
-/// Chooses between two readings of a cell in one scan: an occupied one before a free one, the surer of two alike. In any order
-/// the same, and never 1/2 if one of them is not.
-fn stronger<T: Real>(a: T, b: T) -> T {
-    if a > T::HALF || b > T::HALF { a.max(b) } else { a.min(b) }
+    let (nearest, plateau) = if nearest >= T::zero() && nearest <= limit.surely_free() {
+        // The same reading, whatever the occupancy.
+        (T::zero(), lattice.units_within(model.free_until(limit.surely_free()).widen()))
+    } else if model.occupancy(T::nearest(lattice.resolution())) == nearest {
+        // The plateau takes some time to find: not for one that ends within a cell.
+        (nearest, lattice.units_within(model.plateau().widen()))
+    } else {
+        (nearest, 0)
+    };
+    let sure = direction.longer_part(plateau.saturating_sub(TO_CENTRE));
+    let (obstacle, wall) = match model.obstacle() {
+        Some(([from, to], p)) => {
+            let to = u128::from(lattice.units_within(to.widen()));
+            ([lattice.square_beyond(from.widen()), to * to], p)
+        }
+        None => ([1, 0], T::HALF),
+    };
+    // A distance beyond the next float is beyond this one when it is rounded.
+    let (m, e) = reach.parts();
+    let reach = lattice.square_beyond(T::from_parts(m + 1, e).widen());
+    Ok(Segment { end, model, is_return, nearest, plateau, sure, obstacle, wall, reach })
 }

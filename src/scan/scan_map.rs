@@ -3,14 +3,14 @@
 use super::beams::Scan;
 use super::inserted::Inserted;
 use super::lattice::Lattice;
-use super::rays::{Rays, Reading};
+use super::rays::Rays;
+use super::readings::{Limit, Readings};
 use super::sums::Sums;
 use crate::error::Error;
 use crate::map::Geometry;
 use crate::real::Real;
 use crate::rounded::LOG_ODDS_SCALE;
 use crate::sensor::InverseSensorModel;
-use alloc::vec::Vec;
 use core::marker::PhantomData;
 
 /// A map that range scans are inserted into, and removed from again.
@@ -24,10 +24,11 @@ use core::marker::PhantomData;
 /// rectangle of cells.
 ///
 /// Memory:
-/// * 16 bytes for each cell of the rectangle that was seen, [with agreement](Self::with_agreement) 32;
+/// * 8 bytes for each cell of the rectangle that was seen, while all readings together have at most two values, as those of a
+///   [`SteppedSensor`](crate::sensor::SteppedSensor) have; with more 16, [with agreement](Self::with_agreement) 32;
 /// * room to spare, half as much again on each side that grew, and while the map grows the old and the new one;
-/// * while a scan is inserted or removed, two floats for each cell of the rectangle of that scan, and 32 bytes for each cell
-///   that it touches;
+/// * while a scan is inserted or removed, a byte for each cell of the rectangle of that scan, some 300 for each beam, and some 60
+///   for each reading of a third value;
 /// * some 60 bytes for each scan.
 ///
 /// ```
@@ -46,7 +47,7 @@ use core::marker::PhantomData;
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScanMap<T> {
     pub(super) lattice: Lattice,
-    pub(super) limit: i128,
+    pub(super) limit: Limit<T>,
     pub(super) max_cells: u64,
     has_agreement: bool,
     inserted: Inserted,
@@ -71,7 +72,7 @@ impl<T: Real> ScanMap<T> {
         Geometry::new(resolution, [0.0; 2])?;
         let map = Self {
             lattice: Lattice::new(resolution),
-            limit: 0,
+            limit: Limit::new(1),
             max_cells: Self::MAX_CELLS,
             has_agreement: false,
             inserted: Inserted::default(),
@@ -97,8 +98,8 @@ impl<T: Real> ScanMap<T> {
         let (m, e) = limit.parts();
         let shift = e + LOG_ODDS_SCALE;
         let m = i128::from(m);
-        self.limit =
-            (if shift >= 0 { m << shift } else { m.checked_shr(shift.unsigned_abs()).unwrap_or(0) }).max(1);
+        let units = if shift >= 0 { m << shift } else { m.checked_shr(shift.unsigned_abs()).unwrap_or(0) };
+        self.limit = Limit::new(units.max(1));
         Ok(self)
     }
 
@@ -109,7 +110,7 @@ impl<T: Real> ScanMap<T> {
     }
 
     /// Keeps the magnitudes of the readings of each cell, for [`agreement`](Self::agreement) and
-    /// [`contradictions`](Self::contradictions): 16 bytes more for each cell. No other result changes.
+    /// [`contradictions`](Self::contradictions): up to 16 bytes more for each cell. No other result changes.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if the map holds scans, whose readings are not known any more.
@@ -138,7 +139,7 @@ impl<T: Real> ScanMap<T> {
 
     /// Returns the sum of log-odds of a cell that scans have touched, in units of `2^-80` nats.
     pub(super) fn sum_of(&self, cell: [i64; 2]) -> i128 {
-        self.sums.as_ref().map_or(0, |sums| sums.log_odds_of(cell))
+        self.sums.as_ref().map_or(0, |sums| sums.sum_of(cell))
     }
 
     /// Inserts a scan: along each beam, as far as the model of its range reaches, the cells it crosses.
@@ -203,20 +204,22 @@ impl<T: Real> ScanMap<T> {
         &mut self,
         scan: &Scan<T>,
         model: impl Fn(T) -> Result<M, Error>,
-    ) -> Result<Vec<Reading>, Error> {
-        let rays = Rays::new(self.lattice, scan, model)?;
+    ) -> Result<Readings, Error> {
+        let rays = Rays::new(self.lattice, self.limit, scan, model)?;
         let whole = self.sums.as_ref().map_or(rays.area(), |sums| sums.seen().union(rays.area()));
         // Before the work, which is at most what a map within the limit takes.
         whole.within(self.max_cells)?;
-        let readings = rays.readings(self.limit, self.max_cells)?;
-        let sums = match &mut self.sums {
-            Some(sums) => {
-                sums.grow(whole, self.max_cells)?;
-                sums
-            }
-            none => none.insert(Sums::new(whole, self.has_agreement, self.max_cells)?),
-        };
-        sums.add(&readings, false);
+        let readings = rays.readings(self.max_cells)?;
+        if let Some(sums) = &mut self.sums {
+            sums.learn(&readings, self.max_cells)?;
+            sums.grow(whole, self.max_cells)?;
+            sums.add(&readings);
+        } else {
+            let mut sums = Sums::new(whole, self.has_agreement, self.max_cells)?;
+            sums.learn(&readings, self.max_cells)?;
+            sums.add(&readings);
+            self.sums = Some(sums);
+        }
         self.inserted.add(rays.print(), rays.area());
         Ok(readings)
     }
@@ -226,24 +229,21 @@ impl<T: Real> ScanMap<T> {
         &mut self,
         scan: &Scan<T>,
         model: impl Fn(T) -> Result<M, Error>,
-    ) -> Result<Vec<Reading>, Error> {
+    ) -> Result<Readings, Error> {
         let refused = || {
             let what = "number of times that the map holds the scan by this model";
             Error::out_of_range(what, 0.0, "1 or more")
         };
-        let rays = Rays::new(self.lattice, scan, model)?;
+        let rays = Rays::new(self.lattice, self.limit, scan, model)?;
         let print = rays.print();
         let Some(sums) = self.sums.as_mut().filter(|_| self.inserted.holds(print)) else {
             return Err(refused());
         };
-        let readings = rays.readings(self.limit, self.max_cells)?;
+        let readings = rays.readings(self.max_cells)?;
         let seen = sums.seen();
         let left = self.inserted.area_without(print, seen);
-        sums.add(&readings, true);
         // Where no other scan was, nothing is left of this one, or it was another.
-        let is_gone = left == Some(seen) || sums.are_within(left);
-        if !(is_gone && sums.are_magnitudes(&readings)) {
-            sums.add(&readings, false);
+        if !sums.take(&readings, left, self.max_cells)? {
             return Err(refused());
         }
         match left {

@@ -3,7 +3,7 @@
 
 use super::beams::Scan;
 use super::measures::{cell, count};
-use super::rays::Reading;
+use super::readings::{Reading, Readings};
 use super::scan_map::ScanMap;
 use crate::cell::Cell;
 use crate::error::Error;
@@ -135,19 +135,21 @@ impl<T: Real> TalliedMap<T> {
     ///
     /// # Errors
     /// Never: the tally holds all cells of the map.
-    fn renew(&mut self, readings: &[Reading], is_removal: bool) -> Result<(), Error> {
+    fn renew(&mut self, readings: &Readings, is_removal: bool) -> Result<(), Error> {
         // Cells of one sum are measured once, as in a whole map.
-        let counts = || Repeated::new(readings.len() as u64, 0);
+        let mut touched = 0;
+        readings.for_each(|_| touched += 1);
+        let counts = || Repeated::new(touched, 0);
         let (mut old, mut new) = (counts(), counts());
         let mut lost = Vec::new();
-        for &Reading { cell: place, log_odds } in readings {
+        readings.for_each(|Reading { cell: place, log_odds }| {
             let now = self.map.sum_of(place);
             let before = if is_removal { now + log_odds } else { now - log_odds };
             if let Some((sum, count)) = count(&mut new, now, 1) {
                 self.tally.add_many(cell(sum), count);
             }
             lost.extend(count(&mut old, before, 1));
-        }
+        });
         for (sum, count) in new.into_counts() {
             self.tally.add_many(cell(sum), count);
         }

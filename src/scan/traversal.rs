@@ -25,30 +25,60 @@ pub(super) struct Traversal {
 }
 
 /// Finds the cell that holds a point.
+#[inline]
 pub(super) fn cell_of(point: Point) -> [i64; 2] {
-    point.map(|x| x >> FRACTION)
+    [point[0] >> FRACTION, point[1] >> FRACTION]
+}
+
+/// A segment on the grid, by axis: where it begins, how far it goes, and the lines that it crosses.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Steps {
+    /// The cell that holds its start.
+    pub(super) cell: [i64; 2],
+    /// The number of lines of the grid that it crosses.
+    pub(super) lines: [u64; 2],
+    /// How far it goes, and how far it is to the first line: below `2^62`.
+    pub(super) sides: [u64; 2],
+    pub(super) to_line: [u64; 2],
+    pub(super) forward: [bool; 2],
+}
+
+impl Steps {
+    /// Measures the segment between two points.
+    #[inline]
+    pub(super) fn new(from: Point, to: Point) -> Self {
+        let (cell, last) = (cell_of(from), cell_of(to));
+        let forward = [to[0] >= from[0], to[1] >= from[1]];
+        let line = |k: usize| ((cell[k] + i64::from(forward[k])) << FRACTION).abs_diff(from[k]);
+        let lines = [cell[0].abs_diff(last[0]), cell[1].abs_diff(last[1])];
+        let sides = [to[0].abs_diff(from[0]), to[1].abs_diff(from[1])];
+        let to_line = [line(0), line(1)];
+        Self { cell, lines, sides, to_line, forward }
+    }
+
+    /// Begins the traversal in the cell after so many lines of either axis, which the caller knows to be the first ones, in some
+    /// order.
+    #[inline]
+    pub(super) fn beyond(self, lines: [u64; 2]) -> Traversal {
+        let Self { cell, sides, to_line, forward, .. } = self;
+        // Below 2^62, and below 2^125 times the other side.
+        let next = |k: usize| u128::from(to_line[k] + (lines[k] << FRACTION)) * u128::from(sides[1 - k]);
+        let moved = |k: usize| if forward[k] { lines[k] as i64 } else { -(lines[k] as i64) };
+        Traversal {
+            cell: [cell[0] + moved(0), cell[1] + moved(1)],
+            left: [self.lines[0] - lines[0], self.lines[1] - lines[1]],
+            next: [next(0), next(1)],
+            apart: [u128::from(sides[1]) << FRACTION, u128::from(sides[0]) << FRACTION],
+            forward,
+            done: false,
+        }
+    }
 }
 
 impl Traversal {
     /// Begins in the cell that holds `from`.
     pub(super) fn new(from: Point, to: Point) -> Self {
-        let (cell, last) = (cell_of(from), cell_of(to));
-        let axis = |k: usize| (cell[k].abs_diff(last[k]), to[k] >= from[k]);
-        let ([columns, rows], forward) = ([axis(0).0, axis(1).0], [axis(0).1, axis(1).1]);
-        // From the start to the first line; below 2^62, and below 2^125 times the other side.
-        let distance = |k: usize| {
-            let line = (cell[k] + i64::from(forward[k])) << FRACTION;
-            u128::from(line.abs_diff(from[k]))
-        };
-        let [dx, dy] = [0, 1].map(|k| u128::from(to[k].abs_diff(from[k])));
-        Self {
-            cell,
-            left: [columns, rows],
-            next: [distance(0) * dy, distance(1) * dx],
-            apart: [dy << FRACTION, dx << FRACTION],
-            forward,
-            done: false,
-        }
+        Steps::new(from, to).beyond([0; 2])
     }
 
     /// Crosses the next line of an axis.

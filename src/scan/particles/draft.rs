@@ -6,7 +6,8 @@ use crate::error::Error;
 use crate::real::Real;
 use crate::scan::beams::Scan;
 use crate::scan::raster::{Area, Raster};
-use crate::scan::rays::{Rays, Reading};
+use crate::scan::rays::Rays;
+use crate::scan::readings::{Reading, Readings};
 use crate::scan::scan_map::ScanMap;
 use crate::sensor::InverseSensorModel;
 use alloc::{vec, vec::Vec};
@@ -14,7 +15,7 @@ use alloc::{vec, vec::Vec};
 /// What the scan of one particle says of each cell, and the rectangle that its beams cross.
 pub(super) struct Draft {
     pub(super) area: Area,
-    readings: Vec<Reading>,
+    readings: Readings,
 }
 
 impl Draft {
@@ -27,10 +28,10 @@ impl Draft {
         scan: &Scan<T>,
         model: impl Fn(T) -> Result<M, Error>,
     ) -> Result<Self, Error> {
-        let rays = Rays::new(empty.lattice, scan, model)?;
+        let rays = Rays::new(empty.lattice, empty.limit, scan, model)?;
         // Before the work, which is at most what a map within the limit takes.
         rays.area().within(empty.max_cells)?;
-        Ok(Self { area: rays.area(), readings: rays.readings(empty.limit, empty.max_cells)? })
+        Ok(Self { area: rays.area(), readings: rays.readings(empty.max_cells)? })
     }
 }
 
@@ -77,7 +78,7 @@ impl Drafts {
         let mut changed = Vec::new();
         // Neighbours often have the same.
         let mut last = (0, 0, 0);
-        for &Reading { cell, log_odds } in &draft.readings {
+        draft.readings.try_for_each(|Reading { cell, log_odds }| {
             let place = self.places.cell_mut(cell);
             if *place == NONE {
                 *place = self.cells.len() as u32;
@@ -101,7 +102,8 @@ impl Drafts {
                 *count += change;
             }
             *value = last.2;
-        }
+            Ok(())
+        })?;
         // A value may be there twice, where its count went through 0: once with all of it.
         let take = |number: u32| (number, core::mem::take(&mut self.changes[number as usize]));
         Ok(changed.into_iter().map(take).filter(|&(_, change)| change != 0).collect())

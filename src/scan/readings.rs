@@ -1,0 +1,181 @@
+//! What one scan says of the cells that its beams cross: one reading of each, the strongest.
+//!
+//! Nearly all cells of a scan are told one of two things, free or occupied. These are a byte each in a raster of the scan's
+//! rectangle; what remains is a list.
+
+use super::raster::{Area, Raster};
+use crate::error::Error;
+use crate::real::Real;
+use crate::rounded::{fixed_log_odds, occupancy_from_fixed_log_odds};
+use alloc::vec::Vec;
+use core::convert::Infallible;
+
+/// The reading of one cell by one scan: log-odds in units of `2^-80` nats, not 0.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Reading {
+    pub(super) cell: [i64; 2],
+    pub(super) log_odds: i128,
+}
+
+/// The codes of cells in the raster: nothing, or one of the two levels.
+pub(super) const NOTHING: u8 = 0;
+pub(super) const FREE: u8 = 1;
+pub(super) const OCCUPIED: u8 = 2;
+
+/// The readings of a scan, each cell once.
+pub(super) struct Readings {
+    pub(super) area: Area,
+    /// The codes of the cells; [`NOTHING`] where `others` has a reading.
+    pub(super) codes: Raster<u8>,
+    /// The log-odds of [`FREE`] and [`OCCUPIED`], 0 where no cell has them.
+    pub(super) levels: [i128; 2],
+    pub(super) others: Vec<Reading>,
+}
+
+impl Readings {
+    /// Calls `each` for each reading.
+    pub(super) fn for_each(&self, mut each: impl FnMut(Reading)) {
+        let Ok(()) = self.try_for_each(|reading| {
+            each(reading);
+            Ok::<_, Infallible>(())
+        });
+    }
+
+    /// Calls `each` for each reading, up to the first error, which is returned.
+    pub(super) fn try_for_each<E>(&self, mut each: impl FnMut(Reading) -> Result<(), E>) -> Result<(), E> {
+        for row in self.area.rows() {
+            let codes = self.codes.row(self.area, row);
+            for (column, &code) in (self.area.low()[0]..).zip(codes).filter(|&(_, &code)| code != NOTHING) {
+                each(Reading { cell: [column, row], log_odds: self.levels[usize::from(code - FREE)] })?;
+            }
+        }
+        self.others.iter().copied().try_for_each(each)
+    }
+}
+
+/// The limits on the log-odds of a reading.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Limit<T> {
+    /// The greatest magnitude, in units of `2^-80` nats.
+    units: i128,
+    /// The greatest occupancy whose reading is limited to the least log-odds.
+    surely_free: T,
+}
+
+impl<T: Real> Limit<T> {
+    /// Creates the limit of `units > 0`.
+    pub(super) fn new(units: i128) -> Self {
+        // Within an ulp of it; log-odds in units rise from float to float.
+        let mut surely_free = occupancy_from_fixed_log_odds::<T>(-units);
+        while fixed_log_odds(surely_free) > -units {
+            let (m, e) = surely_free.parts();
+            surely_free = T::from_parts(m - 1, e);
+        }
+        Self { units, surely_free }
+    }
+
+    /// Returns the greatest occupancy whose reading is limited to the least log-odds.
+    pub(super) fn surely_free(&self) -> T {
+        self.surely_free
+    }
+
+    /// Returns 0 for all occupancies of the least reading, of which the scan says the same, and others as they are.
+    #[inline]
+    pub(super) fn canonical(&self, p: T) -> T {
+        if p <= self.surely_free { T::zero() } else { p }
+    }
+
+    /// Computes the reading of an occupancy: log-odds in units of `2^-80` nats, within `2^4` of them, limited (`scan.md`, "The
+    /// sum").
+    fn reading(&self, p: T) -> i128 {
+        fixed_log_odds(p).clamp(-self.units, self.units)
+    }
+}
+
+/// The readings of a scan while its beams are drawn.
+pub(super) struct Drafts<T> {
+    area: Area,
+    codes: Raster<u8>,
+    /// The occupancies of [`FREE`] and [`OCCUPIED`]; NaN, which is equal to none, before there is one.
+    levels: [T; 2],
+    /// The places of occupied cells, which are drawn when all free ones are.
+    occupied: Vec<usize>,
+    others: Vec<Other<T>>,
+}
+
+/// The occupancy that one beam gives to a cell: neither level.
+#[derive(Clone, Copy)]
+struct Other<T> {
+    index: usize,
+    cell: [i64; 2],
+    p: T,
+}
+
+impl<T: Real> Drafts<T> {
+    /// Creates the drafts of an area; the beams say `free`, if that is a number, of most cells.
+    ///
+    /// # Errors
+    /// [`Error::TooManyCells`] if there are more cells than the limit, or no memory for them.
+    pub(super) fn new(area: Area, free: T, max_cells: u64) -> Result<Self, Error> {
+        let codes = Raster::new(area, NOTHING, max_cells)?;
+        Ok(Self { area, codes, levels: [free, T::nan()], occupied: Vec::new(), others: Vec::new() })
+    }
+
+    /// Returns the raster in which free cells may be marked by [`FREE`], if `p` is what the scan says of them.
+    pub(super) fn free(&mut self, p: T) -> Option<&mut Raster<u8>> {
+        (p == self.levels[0]).then_some(&mut self.codes)
+    }
+
+    /// Adds what a beam says of a cell: an occupancy that is not 1/2.
+    #[inline]
+    pub(super) fn say(&mut self, cell: [i64; 2], p: T) {
+        let index = self.codes.index(cell);
+        let level = &mut self.levels[usize::from(p > T::HALF)];
+        if level.is_nan() {
+            *level = p;
+        }
+        if p != *level {
+            self.others.push(Other { index, cell, p });
+        } else if p > T::HALF {
+            self.occupied.push(index);
+        } else {
+            self.codes.set(index, FREE);
+        }
+    }
+
+    /// Chooses the strongest reading of each cell, and limits its log-odds.
+    pub(super) fn readings(mut self, limit: &Limit<T>) -> Readings {
+        // Of an occupied and a free one the occupied.
+        for &index in &self.occupied {
+            self.codes.set(index, OCCUPIED);
+        }
+        self.others.sort_unstable_by_key(|other| other.index);
+        // Neighbours often have the same.
+        let mut last = (T::HALF, 0);
+        let mut others = Vec::new();
+        for alike in self.others.chunk_by(|a, b| a.index == b.index) {
+            let Other { index, cell, .. } = alike[0];
+            let level = match self.codes.at(index) {
+                NOTHING => T::HALF,
+                code => self.levels[usize::from(code - FREE)],
+            };
+            let p = alike.iter().fold(level, |p, other| stronger(p, other.p));
+            // Else the level was the stronger one.
+            if p != level {
+                self.codes.set(index, NOTHING);
+                if p != last.0 {
+                    last = (p, limit.reading(p));
+                }
+                others.push(Reading { cell, log_odds: last.1 });
+            }
+        }
+        let levels = self.levels.map(|p| if p.is_nan() { 0 } else { limit.reading(p) });
+        Readings { area: self.area, codes: self.codes, levels, others }
+    }
+}
+
+/// Chooses between two readings of a cell in one scan: an occupied one before a free one, the surer of two alike. In any order
+/// the same, and never 1/2 if one of them is not.
+pub(super) fn stronger<T: Real>(a: T, b: T) -> T {
+    if a > T::HALF || b > T::HALF { a.max(b) } else { a.min(b) }
+}

@@ -1,0 +1,161 @@
+//! How scans were inserted before anything was short, as a reference: each cell of each beam is asked about, places are exact
+//! quotients, and sums are kept one by one.
+
+use super::beams::{Beam, Scan};
+use super::direction::Direction;
+use super::lattice::Lattice;
+use super::pose::Pose;
+use super::scan_map::ScanMap;
+use super::traversal::Traversal;
+use crate::error::Error;
+use crate::real::Real;
+use crate::rounded::fixed_log_odds;
+use crate::sensor::{GaussianSensor, InverseSensorModel, SteppedSensor};
+use alloc::collections::BTreeMap;
+use alloc::vec::Vec;
+use proptest::collection::vec;
+use proptest::prelude::*;
+
+/// The sum of the readings of each cell, and that of their magnitudes.
+type Sums = BTreeMap<[i64; 2], (i128, i128)>;
+
+/// Adds a scan by its definition, `sign` times: each cell of each beam, the strongest occupancy of each cell, its limited log-odds.
+fn add<T: Real, M: InverseSensorModel<Float = T>>(
+    sums: &mut Sums,
+    scan: &Scan<T>,
+    [resolution, limit]: [f64; 2],
+    model: impl Fn(T) -> Result<M, Error>,
+    sign: i128,
+) {
+    let lattice = Lattice::new(resolution);
+    let start = scan.pose().position().map(|x| lattice.nearest(x).unwrap());
+    let mut told: BTreeMap<[i64; 2], T> = BTreeMap::new();
+    for beam in scan.beams() {
+        let model = model(beam.range.unwrap_or(scan.maximum_range())).unwrap();
+        let length = if beam.range.is_some() { model.reach() } else { scan.maximum_range() };
+        let direction = Direction::new(&[scan.pose().theta(), beam.bearing]).unwrap();
+        let end = lattice.along_exactly(start, direction, length.widen()).unwrap();
+        for cell in Traversal::new(start, end) {
+            let p = model.occupancy(T::nearest(lattice.distance_to_centre(start, cell)));
+            if beam.range.is_some() || p < T::HALF {
+                let known = told.entry(cell).or_insert(T::HALF);
+                *known = if *known > T::HALF || p > T::HALF { known.max(p) } else { known.min(p) };
+            }
+        }
+    }
+    let limit = (limit * f64::from_parts(1, 80)) as i128;
+    for (cell, p) in told {
+        let reading = fixed_log_odds(p).clamp(-limit, limit);
+        let sum = sums.entry(cell).or_insert((0, 0));
+        *sum = (sum.0 + sign * reading, sum.1 + sign * reading.abs());
+    }
+}
+
+/// The scans of a map: poses and beams; a fan of dense beams, as scanners have them, or a few anywhere.
+fn scans() -> impl Strategy<Value = Vec<Scan<f64>>> {
+    let beam = (-7.0_f64..7.0, prop_oneof![5 => (0.03_f64..3.0).prop_map(Some), 1 => Just(None)])
+        .prop_map(|(bearing, range)| Beam { bearing, range });
+    let fan = (-4.0_f64..4.0, -0.06_f64..0.06, 0.3_f64..3.0, 0.0_f64..0.6, 9_u32..40).prop_map(
+        |(from, step, range, rough, count)| {
+            let beam = |k: u32| {
+                let part = (f64::from(k) * 0.618_033_988_749_894_9).fract();
+                Beam {
+                    bearing: from + f64::from(k) * step,
+                    range: Some((range * (1.0 - rough * part)).max(0.03)),
+                }
+            };
+            (0..count).map(beam).collect()
+        },
+    );
+    let beams = prop_oneof![vec(beam, 1..12), fan];
+    let place = || prop_oneof![-2.0_f64..2.0, (-8_i32..8).prop_map(|k| f64::from(k) * 0.25)];
+    let scan = (place(), place(), prop_oneof![-9.0_f64..9.0, Just(0.0)], beams)
+        .prop_map(|(x, y, theta, beams)| Scan::new(Pose::new(x, y, theta).unwrap(), 3.25, beams).unwrap());
+    vec(scan, 1..4)
+}
+
+/// Sides of cells, with which many beams go through corners, and limits.
+fn setting() -> impl Strategy<Value = [f64; 2]> {
+    let side = prop_oneof![Just(0.25), Just(0.0625), 0.05_f64..0.6];
+    [side.boxed(), prop_oneof![Just(3.5), 0.2_f64..40.0].boxed()]
+}
+
+/// Inserts the scans, and removes and inserts some; compares each sum with the reference.
+fn check<T: Real, M: InverseSensorModel<Float = T>>(
+    scans: &[Scan<T>],
+    [resolution, limit]: [f64; 2],
+    removed: usize,
+    model: impl Fn(T) -> Result<M, Error>,
+) -> Result<(), TestCaseError> {
+    let mut map = ScanMap::<T>::new(resolution)?.with_reading_limit(limit)?.with_agreement()?;
+    let mut sums = Sums::new();
+    for scan in scans {
+        map.insert(scan, &model)?;
+        add(&mut sums, scan, [resolution, limit], &model, 1);
+    }
+    compare(&map, &sums)?;
+    for scan in scans.iter().take(removed) {
+        map.remove(scan, &model)?;
+        add(&mut sums, scan, [resolution, limit], &model, -1);
+    }
+    compare(&map, &sums)?;
+    for scan in scans.iter().take(removed).rev() {
+        map.insert(scan, &model)?;
+        add(&mut sums, scan, [resolution, limit], &model, 1);
+    }
+    compare(&map, &sums)
+}
+
+fn compare<T: Real>(map: &ScanMap<T>, sums: &Sums) -> Result<(), TestCaseError> {
+    let Some(stored) = &map.sums else {
+        prop_assert!(sums.values().all(|&sum| sum == (0, 0)));
+        return Ok(());
+    };
+    let ([column, row], [width, _]) = (stored.seen().low(), stored.seen().size());
+    let mut others = sums.values().filter(|&&sum| sum != (0, 0)).count();
+    for (k, pair) in stored.pairs().expect("agreement").enumerate() {
+        let cell = [column + (k % width) as i64, row + (k / width) as i64];
+        prop_assert_eq!(pair, sums.get(&cell).copied().unwrap_or((0, 0)), "{:?}", cell);
+        others -= usize::from(pair != (0, 0));
+    }
+    prop_assert_eq!(others, 0, "outside of the map");
+    Ok(())
+}
+
+fn single(scan: &Scan<f64>) -> Scan<f32> {
+    let beam = |beam: &Beam<f64>| Beam { bearing: beam.bearing, range: beam.range.map(|range| range as f32) };
+    Scan::new(*scan.pose(), 3.25, scan.beams().iter().map(beam).collect()).unwrap()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(40))]
+
+    /// Of two levels, which are counted; thicker than some ranges, too, and of one level alone.
+    #[test]
+    fn steps_are_those_of_the_reference(
+        scans in scans(), setting in setting(), removed in 0_usize..5, thickness in 0.01_f64..1.0,
+        free in prop_oneof![0.0..0.49, Just(0.5), Just(0.0)], occupied in prop_oneof![0.51..1.0, Just(0.5)],
+    ) {
+        check(&scans, setting, removed, |range| SteppedSensor::new(range, thickness, free, occupied))?;
+        let scans: Vec<_> = scans.iter().map(single).collect();
+        let [thickness, free, occupied] = [thickness, free, occupied].map(|x| x as f32);
+        check(&scans, setting, removed, |range| SteppedSensor::new(range, thickness, free, occupied))?;
+    }
+
+    /// Of levels that differ from beam to beam, which are counted until they are too many.
+    #[test]
+    fn mixed_levels_are_those_of_the_reference(
+        scans in scans(), setting in setting(), removed in 0_usize..5, free in [0.0..0.49, 0.0..0.49], from in 0.0_f64..3.0,
+    ) {
+        check(&scans, setting, removed, |range| SteppedSensor::new(range, 0.125, free[usize::from(range > from)], 0.875))?;
+    }
+
+    #[test]
+    fn the_model_of_eq_5_is_that_of_the_reference(
+        scans in scans(), setting in setting(), removed in 0_usize..5, sigma in prop_oneof![0.002_f64..0.3, Just(0.05)],
+    ) {
+        check(&scans, setting, removed, |range| GaussianSensor::new(range, sigma))?;
+        let scans: Vec<_> = scans.iter().map(single).collect();
+        check(&scans, setting, removed, |range| GaussianSensor::new(range, sigma as f32))?;
+    }
+}

@@ -6,7 +6,6 @@ use crate::metres::positive;
 use crate::output::{Files, Writing};
 use crate::plots::{self, Picture};
 use crate::progress::Progress;
-use crate::reading::in_words;
 use crate::trajectory::{
     Candidate, Common, Comparison, Measured, Pictures, Refused, SensorModel, Setup, Used, Wanted, far_pose,
     measure_all,
@@ -16,6 +15,7 @@ use mean_information::Error;
 use mean_information::scan::{Pose, ScanMap};
 use mean_information_files::scans::{Frame, NoReturn, ScanLog, ScanOptions, TimeField};
 use mean_information_files::{read_scans, read_trajectory};
+use mean_information_report::words::in_words;
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::thread;

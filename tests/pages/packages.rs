@@ -4,7 +4,7 @@ use crate::{ROOT, versioned};
 use std::process::Command;
 
 /// A package, the files and folders that it may hold besides what cargo adds, and some that it must.
-const PACKAGES: [(&str, &[&str], &[&str]); 3] = [
+const PACKAGES: [(&str, &[&str], &[&str]); 4] = [
     (
         "mean-information",
         &[
@@ -20,7 +20,8 @@ const PACKAGES: [(&str, &[&str], &[&str]); 3] = [
         &["src/lib.rs", "docs/rounding.md", "docs/figures/figure-1.svg", "vectors/v1/cell.entropy.json"],
     ),
     ("mean-information-files", &["src/"], &["src/lib.rs"]),
-    ("mean-information-cli", &["src/"], &["src/main.rs", "src/output/page.css"]),
+    ("mean-information-report", &["src/"], &["src/lib.rs"]),
+    ("mean-information-cli", &["src/", "build.rs"], &["src/main.rs", "src/output/page.css", "build.rs"]),
 ];
 /// Files of every package.
 const ALWAYS: [&str; 5] = ["Cargo.toml", "Cargo.toml.orig", "README.md", "LICENSE-APACHE", "LICENSE-MIT"];

@@ -1,6 +1,5 @@
 //! The mean information of grids of a circular room against the size of their cells, and the limit they tend to.
 
-use crate::measures::Measures;
 use crate::output::{Number, Record, Report, Value, short, table};
 use crate::progress::Progress;
 use clap::ValueEnum;
@@ -8,6 +7,7 @@ use mean_information::Error;
 use mean_information::limit::{Weight, bounds, closed_form};
 use mean_information::room::{CartesianRoom, PolarRoom};
 use mean_information::sensor::GaussianSensor;
+use mean_information_report::measures::Measures;
 
 /// The way a room is cut into cells.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]

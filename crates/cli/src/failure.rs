@@ -1,7 +1,7 @@
 //! Why a command did not do what it was asked: one line for stderr, and exit status 2.
 
-use crate::one_line::one_line;
-use mean_information_files::{Error, ErrorKind, Place};
+use mean_information_files::Error;
+use mean_information_report::{Refused, one_line};
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -64,37 +64,17 @@ impl Failure {
     }
 }
 
-/// Tells whether a cell was refused whose value often means unknown, and for which `--unknown` can be given.
-fn may_be_unknown(error: &Error) -> bool {
-    let of_floats = error.allowed().is_some_and(|allowed| !allowed.contains("percentage"));
-    matches!(error.place(), Some(Place::Cell { .. }))
-        && of_floats
-        && matches!(error.value(), Some("NaN" | "-1"))
+impl From<Refused> for Failure {
+    /// Takes the refusal of a file.
+    fn from(Refused { path, message, .. }: Refused) -> Self {
+        Self::File { path, message }
+    }
 }
 
 impl From<Error> for Failure {
     /// Takes the error of a reader or a writer, with the option that may mend it.
     fn from(error: Error) -> Self {
-        let message = match error.kind() {
-            ErrorKind::TooLarge => {
-                format!("{}; raise it with --max-cells if the file is meant", error.message())
-            }
-            ErrorKind::Choice => {
-                format!("{}; `meaninfo bag --topic` names one, --force admits costmaps", error.message())
-            }
-            ErrorKind::Options if error.place() == Some(&Place::Option("unknown")) => {
-                "--unknown needs --mode probability; give both or neither".to_owned()
-            }
-            ErrorKind::OutOfRange if may_be_unknown(&error) => {
-                format!("{}, as does --unknown {}", error.message(), error.value().unwrap_or_default())
-            }
-            // An array of integers, which may be percentages or MRPT's bytes.
-            ErrorKind::Unsupported if error.message().contains("integers other than int8") => {
-                format!("{}; --encoding percent reads them as they are", error.message())
-            }
-            _ => error.message().to_owned(),
-        };
-        Self::file(error.file().unwrap_or(Path::new("")), message)
+        Refused::from(error).into()
     }
 }
 

@@ -1,7 +1,7 @@
 //! Lengths as the command line takes them.
 
-use crate::hex_float;
 use mean_information::Real;
+use mean_information_report::hex_float;
 use std::str::FromStr;
 
 /// Reads a positive, finite number of metres: decimal, or a hexadecimal float for exactly that number.

@@ -1,7 +1,7 @@
 //! A bar on stderr while a command works for more than a second, if stderr is a terminal.
 
-use crate::one_line::one_line;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use mean_information_report::one_line;
 use std::io::{self, IsTerminal};
 use std::thread;
 use std::time::Duration;

@@ -1,10 +1,9 @@
-//! How map files are read, as the command line says it, and what it says of their warnings.
+//! How map files are read, as the command line says it.
 
-use crate::clamp::Clamp;
 use crate::metres::positive;
 use clap::Args;
-use mean_information::cell;
-use mean_information_files::{ArrayEncoding, Mode, Options, Semantics, Warning};
+use mean_information_files::{ArrayEncoding, Mode, Options, Semantics};
+use mean_information_report::Clamp;
 
 /// The options for reading map files.
 #[derive(Args, Clone, Debug)]
@@ -56,36 +55,4 @@ impl ReadingArguments {
             max_cells: self.max_cells,
         }
     }
-}
-
-/// Returns the warnings of a map as texts, each with the option that mends it.
-pub fn in_words(warnings: &[Warning]) -> Vec<String> {
-    let in_words = |warning: &Warning| match warning {
-        Warning::SavedUnknownReadAs { grey, free_thresh: None, .. } => {
-            format!("{warning}; if that grey means unknown, give --mode probability --unknown {grey}")
-        }
-        Warning::OftenUnknownObserved { grey, .. } => {
-            format!("{warning}; give --unknown {grey} if that grey means unknown")
-        }
-        Warning::Clamped { least, greatest } => {
-            let most = [least, greatest].map(|&p| cell::information(p)).into_iter().fold(0.0, f32::max);
-            format!("{warning}, so that the mean information is at most {most:.3}")
-        }
-        Warning::SubmapsTogether { .. } => format!("{warning}; --submaps gives each a row"),
-        Warning::OftenUnknownValue { value, .. } => {
-            format!("{warning}; give --unknown {value} if it means unknown here")
-        }
-        Warning::GreysThresholded { unknown, .. } => {
-            let unknown = unknown.map_or_else(String::new, |grey| format!(" --unknown {grey}"));
-            format!("{warning}; --mode scale or --mode probability{unknown} uses them")
-        }
-        Warning::NoPercentageAbove1 { .. } => {
-            format!("{warning}; save 100 * p where p is 1 if they are states")
-        }
-        Warning::TransparentReadAsUnknown { .. } => {
-            format!("{warning}; --semantics nav2-humble or ros1 average alpha in mode trinary")
-        }
-        warning => warning.to_string(),
-    };
-    warnings.iter().map(in_words).collect()
 }

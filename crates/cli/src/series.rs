@@ -1,13 +1,13 @@
 //! The maps of a bag, measured one after the other.
 
 use crate::failure::Failure;
-use crate::measures::Measures;
-use crate::reading::in_words;
 use mean_information::map::Histogram;
 use mean_information::map::encoding::Percent;
 use mean_information_files::bags::{Change, MapSeries, Snapshot, read_bag};
 use mean_information_files::trajectory::seconds;
 use mean_information_files::{Counts, Options};
+use mean_information_report::measures::Measures;
+use mean_information_report::words::in_words;
 use std::path::Path;
 
 /// A map of a bag, and the messages that repeat it.

@@ -5,7 +5,7 @@
 mod common;
 
 use common::*;
-use mean_information_cli::hex_float;
+use mean_information_report::hex_float;
 use serde_json::Value;
 
 const KEYS: [&str; 15] = [

@@ -19,7 +19,7 @@ use super::judge::Answered;
 use super::values::{FloatFormat, Trap};
 use super::vectors::Vectors;
 use super::{TestFailure, Verdict};
-use crate::hex_float;
+use mean_information_report::hex_float;
 use std::collections::{HashMap, HashSet};
 
 /// An answer is that of a trap if it is as near to it as this, relatively.
@@ -195,7 +195,7 @@ mod tests {
     use super::super::values::NEAREST;
     use super::super::vectors::Test;
     use super::*;
-    use crate::protocol::{Claim, Reply};
+    use mean_information_report::protocol::{Claim, Reply};
     use serde_json::json;
 
     /// Tests in f64 whose exact results are `wants`, answered with `answers`; flags and traps of each by its index.

@@ -5,8 +5,8 @@ use super::candidate::{Candidate, Case, Kind, indices};
 use super::judge::{Answered, Deviation, Judged};
 use super::values::{FloatFormat, Want};
 use crate::output::short;
-use crate::protocol::errors;
 use mean_information::Real;
+use mean_information_report::protocol::errors;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Weights of a cause: `PLAIN` for a certain but general fact, `PATTERN` for a numerical pattern.

@@ -7,9 +7,9 @@
 use super::exact::Exact;
 use super::values::{FloatFormat, NEAREST, Want};
 use super::vectors::Test;
-use crate::hex_float::{self, ParseError};
-use crate::protocol::{Claim, Reply, errors};
 use mean_information::Real;
+use mean_information_report::hex_float::{self, ParseError};
+use mean_information_report::protocol::{Claim, Reply, errors};
 use serde_json::Value as Json;
 
 /// An answer, judged.

@@ -1,8 +1,8 @@
 //! The verdict as JUnit XML, which the viewers of continuous integration read: a suite per operation.
 
 use super::{Check, TestCounts, TestFailure, Verdict, words};
-use crate::one_line::one_line;
 use crate::output;
+use mean_information_report::one_line;
 use std::fmt::Write;
 
 /// The suite of what belongs to no test.

@@ -41,8 +41,8 @@ pub use vectors::{Test, Vectors};
 
 use crate::failure::Failure;
 use crate::progress::Progress;
-use crate::protocol::{Claim, Reply, Welcome};
 use mean_information::Real;
+use mean_information_report::protocol::{Claim, Reply, Welcome};
 use run::{Conversation, Ending, Outcome};
 use std::ffi::OsString;
 use std::time::Duration;

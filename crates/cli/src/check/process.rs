@@ -2,8 +2,8 @@
 //! memory: its pipes are served by threads, and what they pass on is bounded.
 
 use super::group::Group;
-use crate::one_line::one_line;
-use crate::protocol::{Line, read_line};
+use mean_information_report::one_line;
+use mean_information_report::protocol::{Line, read_line};
 use std::collections::VecDeque;
 use std::ffi::OsString;
 use std::fmt;

@@ -5,9 +5,9 @@ use super::run::request;
 use super::values::FloatFormat;
 use super::vectors::Test;
 use super::{Answered, Cause, Check, Checked, PortFailure, Role, TestCounts, TestFailure, Verdict, words};
-use crate::one_line::one_line;
 use crate::output::{Number, Record, Report, Value, short, table};
-use crate::protocol::Claim;
+use mean_information_report::one_line;
+use mean_information_report::protocol::Claim;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 

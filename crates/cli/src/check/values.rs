@@ -2,9 +2,9 @@
 //! refused with its value and what is allowed.
 
 use super::exact::Exact;
-use crate::hex_float;
-use crate::protocol::errors;
 use mean_information::Real;
+use mean_information_report::hex_float;
+use mean_information_report::protocol::errors;
 use serde::{Deserialize, Deserializer, de};
 use serde_json::Value as Json;
 use std::fmt;

@@ -2,9 +2,9 @@
 
 use super::values::{FloatFormat, NEAREST, Trap, Version, Want, some_tolerance, tolerance};
 use crate::failure::Failure;
-use crate::protocol::{Arguments, values};
 use mean_information::operations::{Operation, Outcome, find};
 use mean_information::vectors::FILES;
+use mean_information_report::protocol::{Arguments, values};
 use serde::Deserialize;
 use serde_json::Value as Json;
 use std::collections::{BTreeMap, HashSet};

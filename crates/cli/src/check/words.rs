@@ -4,10 +4,10 @@ use super::judge::{Answered, Judged};
 use super::values::Want;
 use super::vectors::Test;
 use super::{Cause, Kind, Role, TestFailure};
-use crate::hex_float;
-use crate::one_line::one_line;
 use crate::output::{Number, short};
-use crate::protocol::{Argument, errors};
+use mean_information_report::hex_float;
+use mean_information_report::one_line;
+use mean_information_report::protocol::{Argument, errors};
 
 /// The number of characters shown of an answer that cannot be read.
 const ANSWER_SHOWN: usize = 120;

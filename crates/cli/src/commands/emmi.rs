@@ -3,7 +3,6 @@
 use super::Status;
 use super::filter::Filter;
 use crate::failure::Failure;
-use crate::measures::Measures;
 use crate::metres::positive;
 use crate::output::{Files, Number, Record, Report, Value, Writing, short, table, with_notes};
 use crate::progress::Progress;
@@ -15,6 +14,7 @@ use mean_information_files::npy::MapsVisitor;
 use mean_information_files::{
     ArrayEncoding, MAX_CELLS, Options, Readable, file_of, read_particles, read_weights,
 };
+use mean_information_report::measures::Measures;
 use std::path::{Path, PathBuf};
 
 /// The arguments of `meaninfo emmi`.

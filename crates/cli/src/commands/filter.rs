@@ -7,7 +7,6 @@ use crate::filter::{FilterReport, Made, Refused, chart, measure};
 use crate::output::{Files, Writing};
 use crate::plots::{self, Drawing, Picture};
 use crate::progress::Progress;
-use crate::reading::in_words;
 use crate::trajectory::far_pose;
 use clap::Args;
 use mean_information::Error;
@@ -15,6 +14,7 @@ use mean_information::scan::{Pose, ScanMap};
 use mean_information_files::particles::FilterLog;
 use mean_information_files::read_filter_log;
 use mean_information_files::scans::ScanOptions;
+use mean_information_report::words::in_words;
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
 

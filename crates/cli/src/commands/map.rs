@@ -2,16 +2,14 @@
 
 use super::Status;
 use crate::failure::Failure;
-use crate::measures::{Measures, NotMeaningful, Sums};
-use crate::octree::MeasuredTree;
-use crate::output::{Files, Number, Record, Report, Value, Writing, short, table, with_notes, wrapped};
+use crate::output::{Files, Number, Record, Report, Writing, short, table, with_notes, wrapped};
 use crate::plots::{self, HeatMap};
 use crate::progress::Progress;
-use crate::reading::{ReadingArguments, in_words};
-use crate::submaps;
+use crate::reading::ReadingArguments;
 use clap::Args;
 use mean_information_files::bags::{self, AnyMapTopic, MapTopic, any_map_topic, last_map};
-use mean_information_files::{Map, Options, octree, read_map, read_map_contents};
+use mean_information_files::{Map, Options, read_map};
+use mean_information_report::{MeasuredMap, Measures, NotMeaningful, Reading, records};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
@@ -73,14 +71,12 @@ impl Arguments {
         let (mut measured, mut failures) = (Vec::with_capacity(results.len()), Vec::new());
         for result in results {
             match result {
-                Ok(rows) => {
-                    for mut map in rows {
-                        files.read(std::mem::take(&mut map.files));
-                        if let (Some(path), Some(picture)) = (&self.heat_map, map.picture.take()) {
-                            files.add(path, picture);
-                        }
-                        measured.push(map);
+                Ok((rows, picture)) => {
+                    files.read(rows.iter().flat_map(|map| map.files.iter().cloned()));
+                    if let (Some(path), Some(picture)) = (&self.heat_map, picture) {
+                        files.add(path, picture);
                     }
+                    measured.extend(rows);
                 }
                 Err(failure) => failures.push(failure),
             }
@@ -96,56 +92,41 @@ impl Arguments {
     }
 
     /// Measures one map, or each submap of a saved state, and draws it if a picture is wanted.
-    fn measure(&self, path: &Path) -> Result<Vec<MeasuredMap>, Failure> {
-        let options = self.reading.options();
-        if bags::is_bag(path) {
-            return self.measure_bag(path, &options).map(|map| vec![map]);
-        }
+    fn measure(&self, path: &Path) -> Result<Measured, Failure> {
+        let reading = Reading {
+            options: self.reading.options(),
+            clamp: self.reading.clamp(),
+            submaps: self.submaps,
+            topic: self.topic.clone(),
+        };
         // Only a picture needs the cells themselves.
-        if self.heat_map.is_some() {
-            let map = read_map(path, &options)?;
-            let measures = Measures::of(&map.cells).noticing(&map.warnings);
-            let picture = drawn(path, &map, &measures)?;
-            return Ok(vec![MeasuredMap::new(path, map, measures, Some(picture))]);
+        if self.heat_map.is_none() {
+            return Ok((MeasuredMap::read(path, &reading)?, None));
         }
-        if submaps::is_state(path) {
-            let measured = |(name, map): (String, Map<_>)| {
-                let measures = Measures::of_counts(&map.cells).noticing(&map.warnings);
-                let row = MeasuredMap::new(path, map, measures, None);
-                MeasuredMap { name, is_rectangle: self.submaps, ..row }
-            };
-            return Ok(submaps::read(path, self.submaps, &options)?.into_iter().map(measured).collect());
-        }
-        if octree::has_name(path) {
-            return Ok(vec![MeasuredMap::of_tree(path, MeasuredTree::read(path, self.reading.clamp())?)]);
-        }
-        let mut sums = Sums::default();
-        let map = read_map_contents(path, &options, &mut sums)?;
-        let measures = Measures::of_contents(&map.cells, &sums).noticing(&map.warnings);
-        Ok(vec![MeasuredMap::new(path, map, measures, None)])
+        let map = self.drawable(path, &reading.options)?;
+        let measures = Measures::of(&map.cells).noticing(&map.warnings);
+        let picture = drawn(path, &map, &measures)?;
+        Ok((vec![MeasuredMap::of_map(path, map)], Some(picture)))
     }
 
-    /// Measures the last map of a bag, and draws it if a picture is wanted.
-    fn measure_bag(&self, path: &Path, options: &Options) -> Result<MeasuredMap, Failure> {
+    /// Reads a map with its cells, of a bag the last one.
+    fn drawable(&self, path: &Path, options: &Options) -> Result<Map, Failure> {
+        if !bags::is_bag(path) {
+            return Ok(read_map(path, options)?);
+        }
         let wanted = MapTopic { name: self.topic.clone(), costmaps: false };
         match any_map_topic(path, &wanted)? {
-            AnyMapTopic::Octrees(topic) if self.heat_map.is_some() => Err(Failure::file(
+            AnyMapTopic::Octrees(topic) => Err(Failure::file(
                 path,
                 format!("{topic} is of octrees, which have no picture; leave out --heat-map"),
             )),
-            AnyMapTopic::Octrees(topic) => {
-                let tree = MeasuredTree::read_last(path, &topic, options, self.reading.clamp())?;
-                Ok(MeasuredMap::of_tree(path, tree))
-            }
-            AnyMapTopic::Grids(topic) => {
-                let map = last_map(path, &topic, options)?;
-                let measures = Measures::of(&map.cells).noticing(&map.warnings);
-                let picture = self.heat_map.as_ref().map(|_| drawn(path, &map, &measures)).transpose()?;
-                Ok(MeasuredMap::new(path, map, measures, picture))
-            }
+            AnyMapTopic::Grids(topic) => Ok(last_map(path, &topic, options)?),
         }
     }
 }
+
+/// The rows of a file, and its picture.
+type Measured = (Vec<MeasuredMap>, Option<Vec<u8>>);
 
 /// The heat map of a map.
 fn drawn(path: &Path, map: &Map, measures: &Measures) -> Result<Vec<u8>, Failure> {
@@ -155,93 +136,31 @@ fn drawn(path: &Path, map: &Map, measures: &Measures) -> Result<Vec<u8>, Failure
     HeatMap::new(map).to_png(&[plots::title(path), measures.summary()])
 }
 
-/// One row of the result.
-struct MeasuredMap {
-    name: String,
-    resolution: Option<f64>,
-    measures: Measures,
-    /// Whether its cells lie in one rectangle: submaps together do not.
-    is_rectangle: bool,
-    /// Leaves and volume, if the map is an octree.
-    tree: Option<MeasuredTree>,
-    warnings: Vec<String>,
-    /// The files that it was read from.
-    files: Vec<PathBuf>,
-    picture: Option<Vec<u8>>,
-}
-
-impl MeasuredMap {
-    fn new<C>(path: &Path, map: Map<C>, measures: Measures, picture: Option<Vec<u8>>) -> Self {
-        let mut warnings = in_words(&map.warnings);
-        warnings.extend(measures.not_meaningful.map(|why| why.warning().to_owned()));
-        let Map { resolution, files, .. } = map;
-        let name = path.display().to_string();
-        Self { name, resolution, measures, is_rectangle: true, tree: None, warnings, files, picture }
-    }
-
-    fn of_tree(path: &Path, tree: MeasuredTree) -> Self {
-        let files = vec![path.to_owned()];
-        let (warnings, resolution) = (tree.warnings.clone(), Some(tree.resolution));
-        let measures = tree.measures.clone();
-        let name = path.display().to_string();
-        Self {
-            name,
-            resolution,
-            measures,
-            is_rectangle: false,
-            tree: Some(tree),
-            warnings,
-            files,
-            picture: None,
-        }
-    }
-
-    /// Returns the record; `with_trees` if a row is an octree's, so that all have its keys.
-    fn record(&self, with_trees: bool) -> Record {
-        let mut entries = vec![("map", Value::Text(self.name.clone()))];
-        if let Some(tree) = &self.tree {
-            entries.extend(tree.entries());
-        } else {
-            entries.extend(self.measures.entries(self.resolution));
-            entries.extend(with_trees.then(MeasuredTree::no_entries).into_iter().flatten());
-            if !self.is_rectangle {
-                for (_, size) in entries.iter_mut().filter(|(key, _)| matches!(*key, "width" | "height")) {
-                    *size = Value::Given(None);
-                }
-            }
-        }
-        entries.push(("meaningful", Value::Flag(self.measures.not_meaningful.is_none())));
-        entries.push(("warnings", Value::Texts(self.warnings.clone())));
-        Record(entries)
-    }
-
-    fn cells(&self) -> [String; 8] {
-        let m = &self.measures;
-        let tree = self.tree.as_ref();
-        let number = m.mean_information.map_or("none".to_owned(), |x| x.to_string());
-        let extent = match tree {
-            Some(tree) => tree.volume().map(|volume| format!("\n{} m³", short(volume))),
-            None => m.observed_area(self.resolution).map(|area| format!("\n{} m²", short(area))),
-        };
-        let size = tree
-            .map(|tree| format!("{} leaves", tree.leaves))
-            .or_else(|| (!self.is_rectangle).then(|| "submaps".to_owned()))
-            .unwrap_or_else(|| format!("{} × {}", m.width, m.height));
-        let side = self.resolution.map(|side| format!("\nof {} m", Number::given(side)));
-        [
-            wrapped(&self.name),
-            size + &side.unwrap_or_default(),
-            number
-                + &m.not_meaningful
-                    .map(|why| format!("\nnot meaningful:\n{}", why.reason()))
-                    .unwrap_or_default(),
-            format!("{:.3}", m.information.widen()),
-            format!("{:.3}", m.entropy.widen()),
-            format!("{}{}", m.observed(), extent.unwrap_or_default()),
-            format!("{} / {}", m.free, m.occupied),
-            tree.map_or_else(|| m.unknown.to_string(), |_| "–".to_owned()),
-        ]
-    }
+/// Returns the row of the table.
+fn cells(map: &MeasuredMap) -> [String; 8] {
+    let m = &map.measures;
+    let tree = map.tree.as_ref();
+    let number = m.mean_information.map_or("none".to_owned(), |x| x.to_string());
+    let extent = match tree {
+        Some(tree) => tree.volume().map(|volume| format!("\n{} m³", short(volume))),
+        None => m.observed_area(map.resolution).map(|area| format!("\n{} m²", short(area))),
+    };
+    let size = tree
+        .map(|tree| format!("{} leaves", tree.leaves))
+        .or_else(|| (!map.is_rectangle).then(|| "submaps".to_owned()))
+        .unwrap_or_else(|| format!("{} × {}", m.width, m.height));
+    let side = map.resolution.map(|side| format!("\nof {} m", Number::given(side)));
+    [
+        wrapped(&map.name),
+        size + &side.unwrap_or_default(),
+        number
+            + &m.not_meaningful.map(|why| format!("\nnot meaningful:\n{}", why.reason())).unwrap_or_default(),
+        format!("{:.3}", m.information.widen()),
+        format!("{:.3}", m.entropy.widen()),
+        format!("{}{}", m.observed(), extent.unwrap_or_default()),
+        format!("{} / {}", m.free, m.occupied),
+        tree.map_or_else(|| m.unknown.to_string(), |_| "–".to_owned()),
+    ]
 }
 
 struct MeasuredMaps(Vec<MeasuredMap>);
@@ -259,11 +178,10 @@ impl Report for MeasuredMaps {
             "unknown",
         ];
         let notes = self.0.iter().flat_map(|map| map.warnings.iter().map(|note| (&*map.name, &**note)));
-        with_notes(table(header, self.0.iter().map(MeasuredMap::cells)), notes)
+        with_notes(table(header, self.0.iter().map(cells)), notes)
     }
 
     fn rows(&self) -> Vec<Record> {
-        let with_trees = self.0.iter().any(|map| map.tree.is_some());
-        self.0.iter().map(|map| map.record(with_trees)).collect()
+        records(&self.0)
     }
 }

@@ -7,6 +7,7 @@ mod emmi;
 mod filter;
 mod limit;
 mod map;
+mod page;
 mod paper;
 mod port;
 mod sensor;
@@ -71,6 +72,8 @@ pub enum Command {
     Simulate(simulate::Arguments),
     /// Everything in the report, computed again: its five figures, its claims as a table, and a page with both.
     Paper(paper::Arguments),
+    /// A page for browsers that measures maps and shows where their information is, with these maps inside: one file to send.
+    Page(page::Arguments),
     /// The library as a port: it serves the port protocol on standard input and output.
     Port(port::Arguments),
     /// Runs an implementation in any language, a port, against the vectors: is it right, and if not, where and why.
@@ -93,6 +96,7 @@ impl Command {
             Self::Emmi(arguments) => arguments.run(),
             Self::Simulate(arguments) => arguments.run(),
             Self::Paper(arguments) => arguments.run(),
+            Self::Page(arguments) => arguments.run(),
             Self::Port(arguments) => arguments.run(),
             Self::Check(arguments) => arguments.run(),
         }

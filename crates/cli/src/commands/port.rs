@@ -2,8 +2,8 @@
 
 use super::Status;
 use crate::failure::Failure;
-use crate::port;
 use clap::Args;
+use mean_information_report::port;
 use std::io::{self, ErrorKind};
 
 /// The arguments of `meaninfo port`: none.

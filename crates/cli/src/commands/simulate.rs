@@ -2,7 +2,6 @@
 
 use super::Status;
 use crate::failure::Failure;
-use crate::measures::Measures;
 use crate::metres::positive;
 use crate::output::{Files, Number, Record, Report, Value, Writing, short, table, wrapped};
 use crate::progress::Progress;
@@ -13,6 +12,7 @@ use mean_information::map::encoding::Probability;
 use mean_information::scan::{Pose, ScanMap};
 use mean_information_files::scans::carmen;
 use mean_information_files::{Map, Options, Semantics, npy, ros, tum};
+use mean_information_report::measures::Measures;
 use std::ffi::OsString;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};

@@ -2,13 +2,14 @@
 
 use super::Status;
 use crate::failure::Failure;
-use crate::octree::MeasuredDepths;
 use crate::output::{Files, Writing};
 use crate::plots::{self, Drawing, Picture, SweepPlot};
+use crate::progress::Progress;
 use crate::reading::ReadingArguments;
-use crate::sweep::Sweep;
 use clap::Args;
-use mean_information_files::{octree, read_map};
+use mean_information_files::{Disk, octree, read_map};
+use mean_information_report::octree::MeasuredDepths;
+use mean_information_report::sweep::Sweep;
 use std::path::PathBuf;
 
 /// The arguments of `meaninfo sweep`.
@@ -33,11 +34,19 @@ impl Arguments {
         let mut files = Files::new();
         let sweep = if octree::has_name(&self.map) {
             files.read([self.map.clone()]);
-            Sweep::of_depths(name, MeasuredDepths::read(&self.map, self.reading.clamp())?)
+            Sweep::of_depths(name, MeasuredDepths::read(&Disk, &self.map, self.reading.clamp())?)
         } else {
             let map = read_map(&self.map, &self.reading.options())?;
             files.read(map.files.iter().cloned());
-            Sweep::of(name, &map).map_err(|error| {
+            let mut progress = None;
+            let begin = |[done, all, k]: [usize; 3]| {
+                let progress = progress.get_or_insert_with(|| Progress::new(all));
+                if done > 0 {
+                    progress.done();
+                }
+                progress.begin(&format!("{} by {k} x {k} cells", self.map.display()));
+            };
+            Sweep::of(name, &map, begin).map_err(|error| {
                 Failure::file(&self.map, format!("{error}; give the map a smaller resolution"))
             })?
         };

@@ -7,7 +7,6 @@ use crate::metres::positive;
 use crate::output::{Files, Writing};
 use crate::plots::{self, Picture};
 use crate::progress::Progress;
-use crate::reading::in_words;
 use crate::trajectory::{
     Candidate, Common, Comparison, Measured, Pictures, Recorded, Refused, Setup, Used, Wanted, far_pose,
     measure_all,
@@ -17,6 +16,7 @@ use mean_information::Error;
 use mean_information::scan::{Pose, ScanMap};
 use mean_information_files::scans::{Frame, ScanLog, ScanOptions, TimeField};
 use mean_information_files::{bags, read_selected_scans, read_trajectory};
+use mean_information_report::words::in_words;
 use std::num::NonZero;
 use std::path::PathBuf;
 use std::thread;

@@ -1,9 +1,9 @@
 //! The rows of a filter's log as table, JSON and CSV.
 
 use super::steps::Row;
-use crate::measures::Measures;
 use crate::output::{Number, Record, Report, Value, table, with_notes};
 use crate::trajectory::Setup;
+use mean_information_report::measures::Measures;
 
 /// What the rows were made of.
 #[derive(Clone, Debug)]

@@ -1,11 +1,11 @@
 //! What is measured after each scan of a filter's log.
 
-use crate::measures::Measures;
 use crate::output::Number;
 use crate::trajectory::Setup;
 use mean_information::Error;
 use mean_information::scan::ParticleMaps;
 use mean_information_files::particles::{FilterLog, FilterStep};
+use mean_information_report::measures::Measures;
 use std::collections::BTreeSet;
 use std::num::NonZero;
 

@@ -1,19 +1,16 @@
 //! What every command does with its result: a table, JSON or CSV; to standard output or to files.
 
 mod files;
-mod number;
 mod page;
-mod record;
 mod standard_output;
 mod table;
 mod writing;
 mod xml;
 
 pub use files::Files;
-pub use number::Number;
-pub(crate) use number::{decimal_exponent, short};
+pub(crate) use mean_information_report::number::{decimal_exponent, short};
+pub use mean_information_report::{Number, Record, Value, record};
 pub(crate) use page::page;
-pub use record::{Record, Value};
 pub use table::{folded, table, text_table, with_notes, wrapped};
 pub use writing::{Writing, write_text};
 pub(crate) use xml::escaped;

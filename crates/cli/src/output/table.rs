@@ -1,7 +1,7 @@
 //! Tables for people.
 
-use crate::one_line::one_line;
 use comfy_table::{Cell, CellAlignment, ContentArrangement, LineStyle, Table, presets};
+use mean_information_report::one_line;
 
 /// Names are wrapped to this many characters, as far as they have folders to wrap after.
 const NAME_WIDTH: usize = 20;

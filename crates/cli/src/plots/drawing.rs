@@ -3,7 +3,7 @@
 use super::bitmap::Bitmap;
 use super::canvas::Canvas;
 use crate::failure::Failure;
-use crate::one_line::one_line;
+use mean_information_report::one_line;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use std::ffi::OsStr;

@@ -15,8 +15,6 @@ const LARGEST: usize = 2000;
 const COMFORTABLE: usize = 800;
 /// but a cell never gets more pixels a side than this.
 const LARGEST_CELL: usize = 40;
-/// No colour of the scale is grey.
-pub(super) const UNKNOWN: [u8; 3] = [190, 190, 190];
 const TOP: i32 = 84;
 const LEFT: i32 = 84;
 const BOTTOM: i32 = 64;

@@ -4,7 +4,6 @@
 mod axis;
 mod bitmap;
 mod canvas;
-mod cell_cache;
 mod chart;
 mod conflict_map;
 mod convergence;

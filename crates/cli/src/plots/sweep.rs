@@ -6,7 +6,7 @@ use super::drawing::Drawing;
 use super::frame::{LEGEND_ROOM, Side, curve, frame, legend};
 use super::marks::Marks;
 use crate::output::short;
-use crate::sweep::{Step, Sweep};
+use mean_information_report::sweep::{Step, Sweep};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 

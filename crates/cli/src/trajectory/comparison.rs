@@ -6,10 +6,10 @@ use super::measure::{BLOCKS, Measured};
 use super::row::{Row, Used};
 use super::warnings;
 use super::weakest::Weakest;
-use crate::measures::Measures;
-use crate::one_line::one_line;
 use crate::output::{Number, Record, Report, Value, short, table, with_notes, wrapped};
 use mean_information::scan::Difference;
+use mean_information_report::measures::Measures;
+use mean_information_report::one_line;
 
 /// The quantile of Student's distribution with 19 degrees of freedom, one less than blocks: 95 % lie within it on both sides.
 const CLEAR: f64 = 2.093;

@@ -3,9 +3,9 @@
 use super::pictures::Pictures;
 use super::row::Row;
 use crate::failure::Failure;
-use crate::one_line::one_line;
 use crate::output::{self, escaped, short};
 use crate::plots::{Sheet, panels};
+use mean_information_report::one_line;
 
 const MEANING: &str = include_str!("meaning.html");
 

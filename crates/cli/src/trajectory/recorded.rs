@@ -1,11 +1,11 @@
 //! What is taken of a bag or of a saved state, as the command line says it.
 
 use crate::failure::Failure;
-use crate::submaps::is_state;
 use clap::Args;
 use mean_information::scan::Pose;
 use mean_information_files::bags;
 use mean_information_files::scans::Selection;
+use mean_information_report::submaps::is_state;
 use std::path::Path;
 
 /// The options for files that hold more than one log.

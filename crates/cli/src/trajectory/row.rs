@@ -2,8 +2,8 @@
 
 use super::setup::Setup;
 use super::weakest::Weakest;
-use crate::measures::Measures;
 use mean_information::scan::Difference;
+use mean_information_report::measures::Measures;
 
 /// The scans that the rows were measured of, and how.
 #[derive(Clone, Debug)]

@@ -3,7 +3,7 @@
 use crate::common::{Folder, meaninfo, read, text};
 use mean_information::Real;
 use mean_information::cell::information;
-use mean_information_cli::hex_float;
+use mean_information_report::hex_float;
 use serde_json::{Value, json};
 use std::fs;
 use std::time::Duration;

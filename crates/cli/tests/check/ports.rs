@@ -2,9 +2,9 @@
 
 use super::fixture::AS_PORT;
 use mean_information::Real;
-use mean_information_cli::hex_float;
-use mean_information_cli::port;
-use mean_information_cli::protocol::{Answer, Argument, Claim, Reply, Request, Run};
+use mean_information_report::hex_float;
+use mean_information_report::port;
+use mean_information_report::protocol::{Answer, Argument, Claim, Reply, Request, Run};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::io::{self, BufRead, Write};

@@ -3,7 +3,7 @@
 
 use assert_cmd::Command;
 use assert_cmd::cargo::cargo_bin_cmd;
-use mean_information_cli::hex_float;
+use mean_information_report::hex_float;
 pub(crate) use mean_information_test_support::formats::Folder;
 use serde_json::Value;
 use std::fs;

@@ -3,9 +3,9 @@
 //! it by bisection; the value that fits most answers is taken.
 
 use super::{Answer, Candidate, Case, FloatFormat, LEAST, answers, cause};
-use crate::hex_float;
 use crate::output::short;
-use crate::protocol::{Argument, Arguments};
+use mean_information_report::hex_float;
+use mean_information_report::protocol::{Argument, Arguments};
 use std::f64::consts::LN_2;
 
 /// The number of answers that `e` is fitted to, and the most cells of a map among them.

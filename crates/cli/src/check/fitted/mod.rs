@@ -12,7 +12,7 @@ mod sums;
 use super::candidate::{Candidate, Case};
 use super::facts::{Number, PLAIN, fact, numbers};
 use super::values::FloatFormat;
-use crate::protocol::Arguments;
+use mean_information_report::protocol::Arguments;
 
 /// The least number of answers that have the value of a mistake where it differs from the right one.
 const LEAST: usize = 3;

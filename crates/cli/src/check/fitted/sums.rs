@@ -2,8 +2,8 @@
 //! choose. Where `sigma` is small against a part, it misses the obstacle or exaggerates it.
 
 use super::{Answer, Candidate, Case, FloatFormat, answers, cause};
-use crate::hex_float;
-use crate::protocol::{Argument, Arguments};
+use mean_information_report::hex_float;
+use mean_information_report::protocol::{Argument, Arguments};
 use std::f64::consts::LN_2;
 
 /// The numbers of parts that are tried: of points or of intervals between them.

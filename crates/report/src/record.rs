@@ -1,6 +1,6 @@
 //! Rows of named values, which become JSON objects and CSV lines with the same keys in the same order.
 
-use super::Number;
+use crate::number::Number;
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
@@ -26,6 +26,12 @@ pub enum Value {
     Records(Vec<Record>),
     /// A nested record.
     Record(Record),
+}
+
+impl From<Vec<Record>> for Value {
+    fn from(records: Vec<Record>) -> Self {
+        Self::Records(records)
+    }
 }
 
 /// Values by name, in order.
@@ -72,14 +78,14 @@ fn twin(key: &str) -> String {
 }
 
 /// Returns indented JSON with a newline at the end.
-pub(super) fn to_json(value: &Value) -> String {
+pub fn to_json(value: &Value) -> String {
     // Strings and numbers under string keys: serialisation cannot fail.
     serde_json::to_string_pretty(value).unwrap_or_default() + "\n"
 }
 
 /// Returns a header and one line per record. What is unknown is an empty field; sentences and numbers of a list are
 /// joined by `; `.
-pub(super) fn to_csv(records: &[Record]) -> String {
+pub fn to_csv(records: &[Record]) -> String {
     let mut lines = records.iter().map(csv_fields).peekable();
     let header = lines.peek().map(|fields| fields.iter().map(|(key, _)| key.clone()).collect::<Vec<_>>());
     let mut writer = csv::Writer::from_writer(Vec::new());

@@ -8,7 +8,7 @@ use std::fmt;
 /// Writes `x` exactly: `0x1.8p-2`, `-0x0p+0`, `inf`, `-inf` or `nan`.
 ///
 /// ```
-/// use mean_information_cli::hex_float::format;
+/// use mean_information_report::hex_float::format;
 /// assert_eq!(format(0.375_f64), "0x1.8p-2");
 /// assert_eq!(format(f32::from_bits(1)), "0x1p-149");
 /// ```
@@ -44,7 +44,7 @@ pub fn format<T: Real>(x: T) -> String {
 /// is ever rounded.
 ///
 /// ```
-/// use mean_information_cli::hex_float::{ParseError, parse};
+/// use mean_information_report::hex_float::{ParseError, parse};
 /// assert_eq!(parse("0x1.8p-2"), Ok(0.375_f64));
 /// assert_eq!(parse::<f32>("0x1.0000001p+0"), Err(ParseError::NotRepresentable));
 /// ```

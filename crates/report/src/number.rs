@@ -68,7 +68,7 @@ impl Serialize for Number {
 }
 
 /// Returns `x` to at most four significant digits.
-pub(crate) fn short(x: f64) -> String {
+pub fn short(x: f64) -> String {
     let rounded: f64 = format!("{x:.3e}").parse().unwrap_or(x);
     if rounded == 0.0 || (-4..6).contains(&decimal_exponent(rounded)) {
         rounded.to_string()
@@ -77,8 +77,8 @@ pub(crate) fn short(x: f64) -> String {
     }
 }
 
-/// The `n` of `x = d.ddd * 10^n`.
-pub(crate) fn decimal_exponent(x: f64) -> i32 {
+/// Returns the `n` of `x = d.ddd * 10^n`.
+pub fn decimal_exponent(x: f64) -> i32 {
     format!("{x:e}").split_once('e').and_then(|(_, n)| n.parse().ok()).unwrap_or(0)
 }
 

@@ -1,6 +1,7 @@
 //! What is measured of a map, and whether it means anything.
 
-use crate::output::{Number, Value};
+use crate::number::Number;
+use crate::record::Value;
 use mean_information::cell::Cell;
 use mean_information::map::{Encoding, Grid};
 use mean_information::{Real, Tally};
@@ -126,7 +127,7 @@ impl Measures {
     }
 
     /// The head of a table's column of mean information.
-    pub(crate) const MEAN_INFORMATION_HEAD: &str = "mean information\n(bits / cell)";
+    pub const MEAN_INFORMATION_HEAD: &str = "mean information\n(bits / cell)";
 
     /// Returns the entries of a record of the map, whose cells have the given side in metres.
     pub fn entries(&self, resolution: Option<f64>) -> [(&'static str, Value); 11] {

@@ -1,25 +1,33 @@
 //! The submaps of Cartographer's saved states, each by itself or counted together.
 
-use crate::failure::Failure;
+use crate::words::Refused;
 use mean_information::map::encoding::Probability;
 use mean_information_files::pbstream::Submap;
-use mean_information_files::{Counts, Map, Options, Warning, read_submaps};
+use mean_information_files::{Counts, Map, Options, Source, Warning, read_submaps_from};
 use std::path::Path;
 
 /// The counts of a submap, or of all.
-type Counted = Map<Counts<Probability<f32>>>;
+pub type Counted = Map<Counts<Probability<f32>>>;
 
 /// Tells whether a file is a saved state by its name.
-pub(crate) fn is_state(path: &Path) -> bool {
+pub fn is_state(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("pbstream"))
 }
 
 /// Reads the submaps of a saved state, each with its name; or, unless they are `apart`, all of them as one, whose width
 /// and height are 0 and whose cells are not resampled: their counts are merged.
-pub(crate) fn read(path: &Path, apart: bool, options: &Options) -> Result<Vec<(String, Counted)>, Failure> {
-    let submaps = read_submaps(path, options)?;
+///
+/// # Errors
+/// A file that is no saved state, or has no submaps.
+pub fn read(
+    source: &impl Source,
+    path: &Path,
+    apart: bool,
+    options: &Options,
+) -> Result<Vec<(String, Counted)>, Refused> {
+    let submaps = read_submaps_from(source, path, options)?;
     if submaps.is_empty() {
-        return Err(Failure::file(path, "has no submaps"));
+        return Err(Refused::new(path, "has no submaps"));
     }
     let name = path.display();
     let files = || vec![path.to_owned()];

@@ -7,16 +7,16 @@ use mean_information::map::Encoding;
 const SLOTS: u32 = 12;
 
 /// The last cell of each slot; a value has one slot.
-pub(super) struct CellCache<E: Encoding>(Vec<Option<(u64, Cell<E::Float>)>>);
+pub(crate) struct CellCache<E: Encoding>(Vec<Option<(u64, Cell<E::Float>)>>);
 
 impl<E: Encoding> CellCache<E> {
     /// Creates an empty cache.
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self(vec![None; 1 << SLOTS])
     }
 
     /// Returns [`Encoding::cell`] of a stored value.
-    pub(super) fn cell(&mut self, stored: E::Stored) -> Option<Cell<E::Float>> {
+    pub(crate) fn cell(&mut self, stored: E::Stored) -> Option<Cell<E::Float>> {
         let value = E::value(stored).to_bits();
         // Fibonacci hashing: the high bits of a product with 2^64 over the golden ratio.
         let slot = &mut self.0[(value.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> (64 - SLOTS)) as usize];

@@ -1,17 +1,17 @@
 //! Octrees: their finest cells measured leaf by leaf, and their cells averaged depth by depth.
 
 use crate::clamp::Clamp;
-use crate::failure::Failure;
 use crate::measures::Measures;
-use crate::output::{Number, Value};
-use crate::reading::in_words;
+use crate::number::Number;
+use crate::record::Value;
+use crate::words::{Refused, in_words};
 use mean_information::cell::Cell;
 use mean_information::map::Encoding;
 use mean_information::map::encoding::LogOdds;
 use mean_information::{ExactSum, Tally};
 use mean_information_files::bags::last_octree;
 use mean_information_files::octree::{DEPTH, Leaf, Octant, Octree, OctreeVisitor};
-use mean_information_files::{Error, Options, read_octree};
+use mean_information_files::{Error, Options, Source, read_octree_from};
 use std::path::Path;
 
 /// The number of depths, that of the root included.
@@ -75,19 +75,19 @@ impl OctreeVisitor for FinestCells {
 }
 
 impl MeasuredTree {
-    /// Reads and measures the tree of a file.
+    /// Reads and measures the tree at `path` of `source`.
     ///
     /// # Errors
     /// A file that is no octree.
-    pub fn read(path: &Path, clamp: Clamp) -> Result<Self, Failure> {
-        Self::measured(clamp, |cells| read_octree(path, cells))
+    pub fn read(source: &impl Source, path: &Path, clamp: Clamp) -> Result<Self, Refused> {
+        Self::measured(clamp, |cells| read_octree_from(source, path, cells))
     }
 
     /// Reads and measures the last tree of a topic of a bag.
     ///
     /// # Errors
     /// As [`last_octree`].
-    pub fn read_last(path: &Path, topic: &str, options: &Options, clamp: Clamp) -> Result<Self, Failure> {
+    pub fn read_last(path: &Path, topic: &str, options: &Options, clamp: Clamp) -> Result<Self, Refused> {
         Self::measured(clamp, |cells| last_octree(path, topic, options, cells))
     }
 
@@ -95,7 +95,7 @@ impl MeasuredTree {
     fn measured(
         clamp: Clamp,
         read: impl FnOnce(&mut FinestCells) -> Result<Octree, Error>,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self, Refused> {
         let values = Values { clamp, ..Values::default() };
         let mut cells = FinestCells { values, tally: Tally::new() };
         let tree = read(&mut cells)?;
@@ -141,14 +141,14 @@ pub struct MeasuredDepths {
 }
 
 impl MeasuredDepths {
-    /// Reads a tree and measures it at each depth: a cell has the mean occupancy of its finest cells, of which those in no
+    /// Reads the tree at `path` of `source` and measures it at each depth: a cell has the mean occupancy of its finest cells, of which those in no
     /// leaf are unknown.
     ///
     /// # Errors
     /// A file that is no octree.
-    pub fn read(path: &Path, clamp: Clamp) -> Result<Self, Failure> {
+    pub fn read(source: &impl Source, path: &Path, clamp: Clamp) -> Result<Self, Refused> {
         let mut depths = Depths { values: Values { clamp, ..Values::default() }, ..Depths::default() };
-        let tree = read_octree(path, &mut depths)?;
+        let tree = read_octree_from(source, path, &mut depths)?;
         let has_two_values = !depths.values.has_more;
         let finest_first = depths.tallies.iter().rev();
         let measures: Vec<_> = finest_first.map(|tally| Measures::of_octree(tally, has_two_values)).collect();

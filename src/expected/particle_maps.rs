@@ -64,7 +64,8 @@ impl<T: Real> ParticleMaps<T> {
     /// let scan = |range| Scan::new(Pose::new(0.13, 0.12, 0.0)?, 4.0, vec![Beam { bearing: 0.0, range: Some(range) }]);
     /// let mut maps = ParticleMaps::new(ScanMap::<f64>::new(0.25)?, 2)?;
     /// maps.insert(&[scan(1.0)?, scan(2.5)?], |range| SteppedSensor::new(range, 0.25, 0.25, 0.875))?;
-    /// assert_eq!(maps.mean_of_mean_information(&[0.75, 0.25])?, 0.23515470294706953);
+    /// let mean = maps.mean_of_mean_information(&[0.75, 0.25])?;
+    /// assert_eq!(format!("{mean:.12}"), "0.234963329577"); // bits per observed cell
     /// # Ok::<(), mean_information::Error>(())
     /// ```
     pub fn mean_of_mean_information(&self, weights: &[f64]) -> Result<T, Error> {

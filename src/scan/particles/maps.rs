@@ -41,12 +41,14 @@ use core::ops::Range;
 /// // Two particles, the second one a cell further on.
 /// let mut maps = ParticleMaps::new(ScanMap::<f64>::new(0.25)?, 2)?;
 /// maps.insert(&[scan(0.13)?, scan(0.38)?], model)?;
-/// assert_eq!(maps.expected_tally(&[0.75, 0.25])?.mean_information(), 0.11928137120480643); // EMMI
+/// let emmi = maps.expected_tally(&[0.75, 0.25])?.mean_information();
+/// assert_eq!(format!("{emmi:.12}"), "0.139748258877"); // bits per observed cell
 /// // Both continue the second: they agree.
 /// maps.resample(&[1, 1])?;
 /// let own = maps.tally(0).map(|tally| tally.mean_information());
 /// assert_eq!(own, Some(0.24226461179277445));
-/// assert_eq!(maps.expected_tally(&[0.75, 0.25])?.mean_information(), 0.24226461179277445);
+/// let emmi = maps.expected_tally(&[0.75, 0.25])?.mean_information();
+/// assert_eq!(format!("{emmi:.12}"), "0.242264611793");
 /// # Ok::<(), mean_information::Error>(())
 /// ```
 #[derive(Clone, Debug)]
@@ -122,7 +124,8 @@ impl<T: Real> ParticleMaps<T> {
     /// let scans = [Scan::new(Pose::new(0.13, 0.12, 0.0)?, 4.0, vec![beam])?, Scan::new(Pose::new(0.38, 0.12, 0.0)?, 4.0, vec![beam])?];
     /// let mut maps = ParticleMaps::new(ScanMap::<f64>::new(0.25)?, 2)?;
     /// maps.par_insert(&scans, |range| SteppedSensor::new(range, 0.25, 0.25, 0.875))?;
-    /// assert_eq!(maps.par_expected_tally(&[0.75, 0.25])?.mean_information(), 0.11928137120480643);
+    /// let emmi = maps.par_expected_tally(&[0.75, 0.25])?.mean_information();
+    /// assert_eq!(format!("{emmi:.12}"), "0.139748258877");
     /// # Ok::<(), mean_information::Error>(())
     /// ```
     #[cfg(feature = "rayon")]

@@ -97,7 +97,8 @@ impl<T: Real> ParticleMaps<T> {
         self.particles.len()
     }
 
-    /// Inserts a scan into the map of each particle, from its own pose: as [`ScanMap::insert`] does.
+    /// Inserts a scan into the map of each particle, from its own pose: the bits of [`ScanMap::insert`] (proved,
+    /// [`scan`](crate::book::scan)).
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if there is not one scan for each particle; those of [`ScanMap::insert`]; [`Error::TooManyCells`]
@@ -237,10 +238,19 @@ impl<T: Real> ParticleMaps<T> {
         self.particles.get(particle).map(|particle| &particle.tally)
     }
 
-    /// Returns the map of a particle in log-odds (nats): the bits and the place of [`ScanMap::log_odds`].
+    /// Returns the map of a particle in log-odds (nats): the bits and the place of [`ScanMap::log_odds`] (proved,
+    /// [`scan`](crate::book::scan)).
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if there is no such particle, or the corner of the map is not finite.
+    ///
+    /// ```
+    /// use mean_information::scan::{ParticleMaps, ScanMap};
+    /// let maps = ParticleMaps::new(ScanMap::<f64>::new(0.25)?, 2)?;
+    /// assert_eq!(maps.log_odds(1)?, ScanMap::<f64>::new(0.25)?.log_odds()?);
+    /// assert!(maps.log_odds(2).is_err());
+    /// # Ok::<(), mean_information::Error>(())
+    /// ```
     pub fn log_odds(&self, particle: usize) -> Result<Grid<LogOdds<T>>, Error> {
         let Some(of) = self.particles.get(particle) else {
             return Err(Error::out_of_range("particle", particle as f64, "one that there is"));

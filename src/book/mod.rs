@@ -29,7 +29,7 @@ chapters! {
     scan;
     fusion;
     evidence shows "figures/evidence.svg";
-    expected;
+    expected shows "figures/csail.svg";
     limit;
     closed_form;
     convergence;

@@ -5,7 +5,7 @@ use crate::output::{Number, Record, Report, Value, table, with_notes};
 use crate::trajectory::Setup;
 use mean_information_report::measures::Measures;
 
-/// What the rows were made of.
+/// The log that rows were made of, and how.
 #[derive(Clone, Debug)]
 pub struct Made {
     /// The name of the log.
@@ -29,7 +29,7 @@ pub struct Made {
 /// The rows, and what they were made of.
 #[derive(Clone, Debug)]
 pub struct FilterReport {
-    /// What the rows were made of.
+    /// The log that they were made of, and how.
     pub made: Made,
     /// The rows, in the order of the log: one or more.
     pub rows: Vec<Row>,

@@ -194,9 +194,13 @@ fn a_clock_that_jumps_back_is_told() {
     let grid = |cell: u8| {
         let mut message = Writer::new(false, false);
         message.header([5, 6], "map");
-        [1_u32, 2].iter().for_each(|x| message.number(x.to_le_bytes()));
+        for x in [1_u32, 2] {
+            message.number(x.to_le_bytes());
+        }
         message.floats(&[0.25]);
-        [2_u32, 1].iter().for_each(|x| message.number(x.to_le_bytes()));
+        for x in [2_u32, 1] {
+            message.number(x.to_le_bytes());
+        }
         message.doubles(&[0.5, -2.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
         message.number(2_u32.to_le_bytes());
         message.bytes.extend([cell, 100]);

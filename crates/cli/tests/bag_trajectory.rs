@@ -173,7 +173,7 @@ fn a_bag_of_a_public_log_has_its_numbers() {
 }
 
 #[test]
-fn a_real_state_is_better_after_its_loops_were_closed() {
+fn a_real_state_compares_its_local_poses_with_its_global_ones() {
     let Some(data) = shared_data() else { return };
     let path = data.join("cartographer/JFR_racingv5.pbstream");
     let found = rows(&[path.to_str().unwrap()]);

@@ -45,8 +45,8 @@ pub(super) struct Poses {
     pub(super) child: Option<String>,
     /// The times, in seconds, which ascend.
     pub(super) times: Vec<f64>,
-    /// The poses.
-    pub(super) poses: Vec<Rigid>,
+    /// What was at these times.
+    pub(super) rigid: Vec<Rigid>,
     /// The number of poses at the time of the pose before.
     pub(super) same_time: u64,
 }
@@ -113,7 +113,7 @@ impl<'a> Recording<'a> {
         }
         self.kept.add(8)?;
         poses.times.push(header.time);
-        poses.poses.push(pose);
+        poses.rigid.push(pose);
         Ok(())
     }
 }

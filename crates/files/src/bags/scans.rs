@@ -166,18 +166,17 @@ impl Robot<'_> {
 
     /// Returns the trajectories of the robot in the frames that are wanted, at the times of the scans.
     fn in_frames(&self, scans: &[RangeScan]) -> Result<Vec<RecordedTrajectory>, Error> {
-        let frames: Vec<&str> = match &self.selection.frames {
-            Some(frames) => frames.iter().map(|name| name.strip_prefix('/').unwrap_or(name)).collect(),
-            None => {
-                let over = self.transforms.over(self.base)?;
-                let own: Vec<&str> = FRAMES.into_iter().filter(|name| over.contains(name)).collect();
-                if own.is_empty() {
-                    let words = format!("TF has neither map nor odom over {}", self.base);
-                    let frames: Vec<String> = over[1..].iter().map(|&name| name.to_owned()).collect();
-                    return Err(choice(words, "; the frames over it are: ", &frames));
-                }
-                own
+        let frames: Vec<&str> = if let Some(frames) = &self.selection.frames {
+            frames.iter().map(|name| name.strip_prefix('/').unwrap_or(name)).collect()
+        } else {
+            let over = self.transforms.over(self.base)?;
+            let own: Vec<&str> = FRAMES.into_iter().filter(|name| over.contains(name)).collect();
+            if own.is_empty() {
+                let words = format!("TF has neither map nor odom over {}", self.base);
+                let frames: Vec<String> = over[1..].iter().map(|&name| name.to_owned()).collect();
+                return Err(choice(words, "; the frames over it are: ", &frames));
             }
+            own
         };
         frames.into_iter().map(|frame| self.in_frame(frame, scans)).collect()
     }
@@ -217,7 +216,7 @@ impl Robot<'_> {
         let in_plane = |pose: &Rigid| -> Result<Pose, Error> {
             own.map_or(*pose, |own| pose.compose(&own)).in_plane(&mut tilts)
         };
-        let in_plane: Vec<Pose> = poses.poses.iter().map(in_plane).collect::<Result<_, _>>()?;
+        let in_plane: Vec<Pose> = poses.rigid.iter().map(in_plane).collect::<Result<_, _>>()?;
         if in_plane.is_empty() {
             return Err(
                 Error::new(ErrorKind::Format, format!("has no pose on topic {name}")).with_value(name)

@@ -21,7 +21,7 @@ type Id = (u64, u64);
 /// The nodes, and the poses that the pose graph gives them.
 #[derive(Debug, Default)]
 pub(super) struct Nodes {
-    nodes: BTreeMap<Id, Node>,
+    matched: BTreeMap<Id, Node>,
     global: BTreeMap<Id, Rigid>,
     kept: Kept,
 }
@@ -70,7 +70,7 @@ impl Nodes {
         let points = cloud.in_plane().map_err(of)?;
         let ticks = i128::from(ticks.cast_signed()) - UNIX_EPOCH;
         let node = Node { time: seconds(ticks * STEP_NS), upright, local, points };
-        if self.nodes.insert((trajectory, index), node).is_some() {
+        if self.matched.insert((trajectory, index), node).is_some() {
             return Err(of(Error::new(ErrorKind::Format, "is there twice")));
         }
         Ok(())
@@ -117,14 +117,14 @@ impl Nodes {
         let mut scans: Vec<RangeScan> = Vec::new();
         let mut held = ["local", "global"].map(|name| (name, Vec::new(), Vec::new(), Tilts::default()));
         let [mut same_time, mut empty] = [0; 2];
-        for ((_, index), node) in self.nodes.iter().filter(|((trajectory, _), _)| *trajectory == wanted) {
+        for ((_, index), node) in self.matched.iter().filter(|((trajectory, _), _)| *trajectory == wanted) {
             let of = |error: Error| error.preceded_by(&format!("node {wanted}, {index}: "));
             let before = scans.last().map(RangeScan::time);
             if node.points.is_empty() || before == Some(node.time) {
                 if node.points.is_empty() {
-                    empty += 1
+                    empty += 1;
                 } else {
-                    same_time += 1
+                    same_time += 1;
                 }
                 continue;
             }
@@ -163,7 +163,7 @@ impl Nodes {
     /// Returns the number of the trajectory that is meant.
     fn trajectory(&self, selection: &Selection) -> Result<u64, Error> {
         let mut counts = BTreeMap::new();
-        for (trajectory, _) in self.nodes.keys() {
+        for (trajectory, _) in self.matched.keys() {
             *counts.entry(*trajectory).or_insert(0_u64) += 1;
         }
         let words = match (selection.trajectory, counts.len()) {

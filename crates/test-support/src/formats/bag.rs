@@ -85,11 +85,15 @@ impl Writer {
 
     /// Writes numbers in single precision.
     pub fn floats(&mut self, numbers: &[f32]) {
-        numbers.iter().for_each(|x| self.number(x.to_le_bytes()));
+        for x in numbers {
+            self.number(x.to_le_bytes());
+        }
     }
 
     /// Writes numbers in double precision.
     pub fn doubles(&mut self, numbers: &[f64]) {
-        numbers.iter().for_each(|x| self.number(x.to_le_bytes()));
+        for x in numbers {
+            self.number(x.to_le_bytes());
+        }
     }
 }

@@ -42,7 +42,17 @@ pub trait InverseSensorModel {
     /// [`ScanMap::insert`](crate::scan::ScanMap::insert) asks for it at the `p` whose reading is the least it takes, and gives
     /// that reading to the cells up to there.
     ///
-    /// Any such distance is valid; the default is the plateau. A distance that is too large gives wrong maps.
+    /// Any such distance is valid; the default is the plateau. A distance that is too large gives wrong maps. That of
+    /// [`GaussianSensor`] is below `z - σ √(-2 ln p)` by some `8 ε z` (measured), and the model is at most `p` there, by its own,
+    /// correctly rounded word (proved in [`sensor`](crate::book::sensor)).
+    ///
+    /// ```
+    /// use mean_information::sensor::{GaussianSensor, InverseSensorModel};
+    /// let sensor = GaussianSensor::new(2.5_f64, 0.125)?;
+    /// let edge = sensor.free_until(0.25);
+    /// assert!((edge - 2.291_861_3).abs() < 1e-6 && sensor.occupancy(edge) <= 0.25); // metres
+    /// # Ok::<(), mean_information::Error>(())
+    /// ```
     fn free_until(&self, p: Self::Float) -> Self::Float {
         let _ = p;
         self.plateau()
@@ -52,6 +62,13 @@ pub trait InverseSensorModel {
     /// [`ScanMap::insert`](crate::scan::ScanMap::insert) gives it to the cells there without asking for theirs.
     ///
     /// Any such stretch is valid; the default is none. A stretch that is too long gives wrong maps.
+    ///
+    /// ```
+    /// use mean_information::sensor::{InverseSensorModel, SteppedSensor};
+    /// let sensor = SteppedSensor::new(2.0_f64, 0.5, 0.25, 0.875)?;
+    /// assert_eq!(sensor.obstacle(), Some(([1.75, 2.25], 0.875))); // metres, and the occupancy there
+    /// # Ok::<(), mean_information::Error>(())
+    /// ```
     fn obstacle(&self) -> Option<([Self::Float; 2], Self::Float)> {
         None
     }

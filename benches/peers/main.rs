@@ -1,6 +1,6 @@
 //! This crate and others at the same work, in one run: tables of times and their ratios.
 //!
-//! `cargo bench --bench peers`, or with `-- limit` or `-- maps` one of the two. What is not installed is skipped with a
+//! `cargo bench --bench peers`, or with `-- limit`, `-- maps` or `-- scans` one of the three. What is not installed is skipped with a
 //! message. Every result is checked before it is printed; `benches/RESULTS.md` has runs.
 
 #![allow(missing_docs)]
@@ -8,6 +8,7 @@
 mod limit;
 mod maps;
 mod program;
+mod scans;
 
 fn main() {
     // Cargo adds `--bench`.
@@ -18,5 +19,8 @@ fn main() {
     }
     if wanted("maps") {
         maps::compare();
+    }
+    if wanted("scans") {
+        scans::compare();
     }
 }

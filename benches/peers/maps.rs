@@ -1,6 +1,6 @@
 //! The mean information of large maps. C, C++ and Python read the same cells from a file.
 
-use crate::program::{Timed, beside, output_of, python};
+use crate::program::{Timed, beside, compiled, python, rows_of, with_mrpt};
 use mean_information::map::encoding::{Encoding, MrptLogOdds, Probability};
 use mean_information_test_support::timing::least_time;
 use std::fs;
@@ -102,17 +102,6 @@ impl<'a> Map<'a> {
     }
 }
 
-/// From the lines that a peer prints.
-fn rows_of(command: &mut Command) -> impl Iterator<Item = Row> {
-    let row = |line: &str| {
-        let mut fields = line.split('\t');
-        let method = fields.next()?.to_owned();
-        let mut number = || fields.next()?.parse().ok();
-        Some(Row { method, seconds: number()?, result: number()? })
-    };
-    output_of(command).lines().filter_map(row).collect::<Vec<_>>().into_iter()
-}
-
 /// What MRPT 2.5 takes for the mean information: unknown cells, and those next to them on one side, count as observed with 1
 /// bit, and those on the other side as unknown.
 fn by_mrpt(cells: &[i8]) -> f64 {
@@ -144,32 +133,8 @@ impl Programs {
             assert_eq!(vectors, flags.contains(&"-Ofast"), "calls of vector logarithms with {flags:?}");
             Some((flags.join(" "), program))
         });
-        Self { c: c.collect(), mrpt: Self::mrpt(folder) }
+        Self { c: c.collect(), mrpt: with_mrpt("mrpt.cpp", folder.join("mrpt")) }
     }
-
-    /// Against MRPT as Debian installs it.
-    fn mrpt(folder: &Path) -> Option<PathBuf> {
-        let program = folder.join("mrpt");
-        let Ok(modules) = fs::read_dir("/usr/include/mrpt") else {
-            eprintln!("skipped: no /usr/include/mrpt; Debian's package is libmrpt-maps-dev");
-            return None;
-        };
-        let mut compiler = Command::new("c++");
-        compiler.args(["-std=c++17", "-O3"]);
-        let includes =
-            modules.flatten().map(|module| module.path().join("include")).filter(|path| path.is_dir());
-        for include in includes.chain([PathBuf::from("/usr/include/eigen3")]) {
-            compiler.arg("-isystem").arg(include);
-        }
-        compiler.arg(beside("mrpt.cpp")).arg("-o").arg(&program);
-        compiled(compiler.args(["-lmrpt-maps", "-lmrpt-obs", "-lmrpt-system"]), program)
-    }
-}
-
-fn compiled(compiler: &mut Command, program: PathBuf) -> Option<PathBuf> {
-    let _ = fs::remove_file(&program);
-    output_of(compiler);
-    program.exists().then_some(program)
 }
 
 /// A multiplicative generator's upper bits.

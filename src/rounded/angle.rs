@@ -42,9 +42,9 @@ pub(crate) fn turns(x: f64) -> u128 {
             usize::try_from(k).ok().and_then(|k| TURNS_PER_RADIAN.get(k)).map_or(0, |&l| u128::from(l))
         };
         let (k, shift) = (last.div_euclid(64), last.rem_euclid(64));
-        ((limb(k - 1) << 64 | limb(k)) >> (64 - shift)) as u64
+        (limb(k - 1) << 64 | limb(k)) >> (64 - shift) & u128::from(u64::MAX)
     };
-    let [low, middle, high] = [e + 192, e + 128, e + 64].map(|last| u128::from(bits(last)));
+    let (low, middle, high) = (bits(e + 192), bits(e + 128), bits(e + 64));
     let m = u128::from(m);
     // m times the 192 bits, modulo 1 turn: the wrapping products drop whole turns, the floor of the lowest one unit.
     let turns = (m * middle).wrapping_add((m * low) >> 64).wrapping_add((m * high) << 64);

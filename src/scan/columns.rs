@@ -87,3 +87,79 @@ impl Columns {
         rows
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::raster::Area;
+    use super::super::traversal::cell_of;
+    use super::*;
+    use proptest::prelude::*;
+    use std::collections::BTreeSet;
+
+    const CELL: i64 = 1 << FRACTION;
+
+    /// Places of which many lie on lines and corners.
+    fn place(cells: i64) -> impl Strategy<Value = i64> {
+        prop_oneof![
+            -cells * CELL..cells * CELL,
+            (-cells..cells).prop_map(|k| k * CELL),
+            (-2 * cells..2 * cells).prop_map(|k| k * CELL / 2),
+            (-cells..cells, -2_i64..3).prop_map(|(k, more)| k * CELL + more),
+        ]
+    }
+
+    /// Columns marked and the rest make up the traversal, and columns are those that are left at less than the length.
+    fn check(from: Point, to: Point, length: u64) -> Result<(), TestCaseError> {
+        let area = Area::of_cell(cell_of(from)).union(Area::of_cell(cell_of(to)));
+        let mut raster = Raster::new(area, 0, 1 << 22).unwrap();
+        let rest: Vec<_> = mark(from, to, length, &mut raster).collect();
+        let all: Vec<_> = Traversal::new(from, to).collect();
+        prop_assert_eq!(&rest[..], &all[all.len() - rest.len()..]);
+        let marked: BTreeSet<_> = all[..all.len() - rest.len()].iter().copied().collect();
+        let count = area.rows().flat_map(|row| raster.row(area, row)).filter(|&&code| code == FREE).count();
+        prop_assert_eq!(count, marked.len());
+        prop_assert!(marked.iter().all(|&cell| *raster.cell(cell) == FREE));
+        // Along the longer axis, of the cells where it goes backwards the lower line.
+        let sides = [0, 1].map(|k| to[k].abs_diff(from[k]));
+        let long = usize::from(sides[0] < sides[1]);
+        let last = cell_of(to)[long];
+        for cell in all {
+            let line = if to[long] >= from[long] { cell[long] + 1 } else { cell[long] } << FRACTION;
+            let is_sure = line.abs_diff(from[long]) < length && (last - cell[long]).abs() > 1;
+            prop_assert!(!is_sure || marked.contains(&cell), "{:?}", cell);
+            prop_assert!(line.abs_diff(from[long]) < length || !marked.contains(&cell), "{:?}", cell);
+        }
+        Ok(())
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(4000))]
+
+        #[test]
+        fn they_are_the_cells_of_the_traversal(
+            from in [place(9), place(9)], to in [place(9), place(9)], length in prop_oneof![Just(0_i64), 0..19 * CELL, (0_i64..19).prop_map(|k| k * CELL)],
+        ) {
+            check(from, to, length as u64)?;
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(60))]
+
+        /// Shorter and longer than what 64 bits hold.
+        #[test]
+        fn so_are_those_of_long_segments(from in [place(9), place(9)], to in [place(700), place(40)], swapped in any::<bool>(), length in 0..800 * CELL) {
+            let turned = |[x, y]: Point| if swapped { [y, x] } else { [x, y] };
+            check(turned(from), turned(to), length as u64)?;
+        }
+    }
+
+    /// A start on a line that the segment leaves at once is in a column that is left at 0.
+    #[test]
+    fn no_length_has_no_columns() {
+        let mut raster = Raster::new(Area::of_cell([0, 0]).union(Area::of_cell([1, -9])), 0, 99).unwrap();
+        let rest = mark([5, 0], [9, -8 * CELL], 0, &mut raster);
+        assert_eq!(rest.count(), 9);
+        assert_eq!(*raster.cell([0, 0]), 0);
+    }
+}

@@ -1,7 +1,7 @@
 //! Sums of readings of two levels, as counts: how often each cell was told either.
 
 use super::raster::{Area, Raster};
-use super::readings::{FREE, NOTHING, OCCUPIED, Readings};
+use super::readings::{FREE, OCCUPIED, Readings};
 use crate::error::Error;
 use core::ops::{AddAssign, SubAssign};
 
@@ -57,7 +57,7 @@ pub(super) struct Counts<C> {
     /// The levels below and above 0, in units of `2^-80` nats; 0 before there is one.
     levels: [i128; 2],
     cells: Raster<C>,
-    /// The number of scans added, those taken out again included: no count is more.
+    /// The number of scans learned, those taken out again included: no count is more.
     scans: u32,
 }
 
@@ -95,34 +95,41 @@ impl<C: Pair> Counts<C> {
         self.scans == C::SCANS
     }
 
-    /// Learns the levels of readings, one below and one above 0; if there are others, none is learned, and the answer is false.
+    /// Makes the counts able to take the readings of another scan; if these have more levels than one below and one above 0,
+    /// nothing changes, and the answer is false.
     pub(super) fn learn(&mut self, readings: &Readings) -> bool {
+        let levels = self.levels_with(readings);
+        if let Some(levels) = levels {
+            self.levels = levels;
+            self.scans += 1;
+        }
+        levels.is_some()
+    }
+
+    /// Finds the levels of these readings and of all before; `None` if they are too many.
+    fn levels_with(&self, readings: &Readings) -> Option<[i128; 2]> {
         let mut levels = self.levels;
-        let all = readings.levels.into_iter().chain(readings.others.iter().map(|reading| reading.log_odds));
-        for level in all.filter(|&level| level != 0) {
+        let others = readings.others.iter().map(|reading| reading.log_odds);
+        for level in readings.levels.into_iter().chain(others).filter(|&level| level != 0) {
             let known = &mut levels[usize::from(level > 0)];
             if *known == 0 {
                 *known = level;
             }
             if *known != level {
-                return false;
+                return None;
             }
         }
-        self.levels = levels;
-        true
+        Some(levels)
     }
 
-    /// Adds readings of levels that were [learned](Self::learn), of cells within the area.
+    /// Adds readings that were [learned](Self::learn), of cells within the area.
     pub(super) fn add(&mut self, readings: &Readings) {
-        self.scans += 1;
         self.change(readings, |counts, one| *counts += one);
     }
 
     /// Takes readings out; if counts are less than those told, none is changed, and the answer is false.
     pub(super) fn take(&mut self, readings: &Readings) -> bool {
-        let levels = self.levels;
-        if !self.learn(readings) || self.levels != levels {
-            self.levels = levels;
+        if self.levels_with(readings) != Some(self.levels) {
             return false;
         }
         let mut are_held = true;
@@ -141,20 +148,10 @@ impl<C: Pair> Counts<C> {
     fn change(&mut self, readings: &Readings, mut change: impl FnMut(&mut C, C)) {
         for row in readings.area.rows() {
             let counts = self.cells.row_mut(readings.area, row);
-            let codes = readings.codes.row(readings.area, row);
-            // Of most of the rectangle the scan says nothing.
-            let is_told = |chunk: &&[u8]| chunk.iter().fold(NOTHING, |all, code| all | code) != NOTHING;
-            let mut start = 0;
-            while start < codes.len() {
-                let chunks = || codes[start..].chunks(CHUNK);
-                let told = start + CHUNK * chunks().take_while(is_told).count();
-                if told > start {
-                    let (counts, codes) = (counts[start..].iter_mut(), &codes[start..told.min(codes.len())]);
-                    for (counts, &code) in counts.zip(codes) {
-                        change(counts, C::of(code));
-                    }
+            for (start, codes) in readings.told(row) {
+                for (counts, &code) in counts[start..].iter_mut().zip(codes) {
+                    change(counts, C::of(code));
                 }
-                start = told + CHUNK;
             }
         }
         for reading in &readings.others {
@@ -198,11 +195,9 @@ impl<C: Pair> Counts<C> {
     }
 }
 
-/// So many cells are passed over at once if nothing is said of them: as many bytes as vectors have.
-const CHUNK: usize = 16;
-
 #[cfg(test)]
 mod tests {
+    use super::super::readings::NOTHING;
     use super::*;
     use proptest::prelude::*;
 
@@ -236,7 +231,7 @@ mod tests {
         }
         assert_eq!(counts.sum_of([3, -2]), -7 * i128::from(u16::MAX));
         let mut wider: Counts<u64> = counts.copied(area, 1).unwrap();
-        assert!(!wider.are_full());
+        assert!(!wider.are_full() && wider.learn(&readings));
         wider.add(&readings);
         assert_eq!(wider.sum_of([3, -2]), -7 << 16);
         assert!(wider.take(&readings) && counts.take(&readings));

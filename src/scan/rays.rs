@@ -1,7 +1,7 @@
 //! The beams of one scan on the lattice, and what they say of the cells that they cross: Eq. 5, or another inverse sensor model,
 //! at the distance of each cell's centre, once for each cell.
 
-use super::beams::{Beam, Scan};
+use super::beams::Scan;
 use super::columns;
 use super::direction::Direction;
 use super::inserted::Print;
@@ -58,17 +58,66 @@ impl<T: Real, M: InverseSensorModel<Float = T>> Rays<M> {
         model: impl Fn(T) -> Result<M, Error>,
     ) -> Result<Self, Error> {
         let start = start(lattice, scan)?;
+        let area = Area::of_cell(cell_of(start));
+        let mut rays = Self { lattice, limit, start, area, segments: Vec::with_capacity(scan.beams().len()) };
         let heading = turns(scan.pose().theta());
-        let mut segments = Vec::with_capacity(scan.beams().len());
-        let mut area = Area::of_cell(cell_of(start));
         for (index, beam) in scan.beams().iter().enumerate() {
             // That of the exact sum of heading and bearing.
             let direction = Direction::of_turns(heading.wrapping_add(turns(beam.bearing)));
-            let segment = segment(lattice, &limit, scan, beam, direction, start, &model, index)?;
-            area = area.union(Area::of_cell(cell_of(segment.end)));
-            segments.push(segment);
+            let segment = rays.segment(scan.maximum_range(), beam.range, direction, &model, index)?;
+            rays.area = rays.area.union(Area::of_cell(cell_of(segment.end)));
+            rays.segments.push(segment);
         }
-        Ok(Self { lattice, limit, start, area, segments })
+        Ok(rays)
+    }
+
+    /// Places one beam, with the model of its range.
+    #[inline]
+    fn segment(
+        &self,
+        maximum_range: T,
+        range: Option<T>,
+        direction: Direction,
+        model: impl Fn(T) -> Result<M, Error>,
+        index: usize,
+    ) -> Result<Segment<M>, Error> {
+        let Self { lattice, limit, start, .. } = *self;
+        let model = model(range.unwrap_or(maximum_range))?;
+        let is_return = range.is_some();
+        let reach = model.reach();
+        let length = if is_return { reach } else { maximum_range }.widen();
+        let far = || Error::Item {
+            what: "reach of beam",
+            index,
+            value: length,
+            allowed: "finite, ending within 2^33 cells of the origin",
+        };
+        if !(length >= 0.0 && length.is_finite()) {
+            return Err(far());
+        }
+        let end = lattice.along(start, direction, length).ok_or_else(far)?;
+        let nearest = model.occupancy(T::zero());
+        let (nearest, plateau) = if nearest >= T::zero() && nearest <= limit.surely_free() {
+            // The same reading, whatever the occupancy.
+            (T::zero(), lattice.units_within(model.free_until(limit.surely_free()).widen()))
+        } else if model.occupancy(T::nearest(lattice.resolution())) == nearest {
+            // The plateau takes some time to find: not for one that ends within a cell.
+            (nearest, lattice.units_within(model.plateau().widen()))
+        } else {
+            (nearest, 0)
+        };
+        let sure = direction.longer_part(plateau.saturating_sub(TO_CENTRE));
+        let (obstacle, wall) = match model.obstacle() {
+            Some(([from, to], p)) => {
+                let to = u128::from(lattice.units_within(to.widen()));
+                ([lattice.square_beyond(from.widen()), to * to], p)
+            }
+            None => ([1, 0], T::HALF),
+        };
+        // A distance beyond the next float is beyond this one when it is rounded.
+        let (m, e) = reach.parts();
+        let reach = lattice.square_beyond(T::from_parts(m + 1, e).widen());
+        Ok(Segment { end, model, is_return, nearest, plateau, sure, obstacle, wall, reach })
     }
 
     /// Returns the rectangle of cells that the beams cross.
@@ -142,55 +191,4 @@ fn start<T: Real>(lattice: Lattice, scan: &Scan<T>) -> Result<Point, Error> {
         lattice.nearest(x).ok_or_else(|| Error::out_of_range(what, x, "within 2^33 cells of the origin"))
     };
     Ok([place("x of the pose", x)?, place("y of the pose", y)?])
-}
-
-/// Places one beam, with the model of its range.
-#[allow(clippy::too_many_arguments)]
-#[inline]
-fn segment<T: Real, M: InverseSensorModel<Float = T>>(
-    lattice: Lattice,
-    limit: &Limit<T>,
-    scan: &Scan<T>,
-    beam: &Beam<T>,
-    direction: Direction,
-    start: Point,
-    model: impl Fn(T) -> Result<M, Error>,
-    index: usize,
-) -> Result<Segment<M>, Error> {
-    let model = model(beam.range.unwrap_or(scan.maximum_range()))?;
-    let is_return = beam.range.is_some();
-    let reach = model.reach();
-    let length = if is_return { reach } else { scan.maximum_range() }.widen();
-    let far = || Error::Item {
-        what: "reach of beam",
-        index,
-        value: length,
-        allowed: "finite, ending within 2^33 cells of the origin",
-    };
-    if !(length >= 0.0 && length.is_finite()) {
-        return Err(far());
-    }
-    let end = lattice.along(start, direction, length).ok_or_else(far)?;
-    let nearest = model.occupancy(T::zero());
-    let (nearest, plateau) = if nearest >= T::zero() && nearest <= limit.surely_free() {
-        // The same reading, whatever the occupancy.
-        (T::zero(), lattice.units_within(model.free_until(limit.surely_free()).widen()))
-    } else if model.occupancy(T::nearest(lattice.resolution())) == nearest {
-        // The plateau takes some time to find: not for one that ends within a cell.
-        (nearest, lattice.units_within(model.plateau().widen()))
-    } else {
-        (nearest, 0)
-    };
-    let sure = direction.longer_part(plateau.saturating_sub(TO_CENTRE));
-    let (obstacle, wall) = match model.obstacle() {
-        Some(([from, to], p)) => {
-            let to = u128::from(lattice.units_within(to.widen()));
-            ([lattice.square_beyond(from.widen()), to * to], p)
-        }
-        None => ([1, 0], T::HALF),
-    };
-    // A distance beyond the next float is beyond this one when it is rounded.
-    let (m, e) = reach.parts();
-    let reach = lattice.square_beyond(T::from_parts(m + 1, e).widen());
-    Ok(Segment { end, model, is_return, nearest, plateau, sure, obstacle, wall, reach })
 }

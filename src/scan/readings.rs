@@ -33,6 +33,14 @@ pub(super) struct Readings {
 }
 
 impl Readings {
+    /// Returns the codes of a row where any are, in pieces of some cells, each with the number of its first cell in the row: of most
+    /// of the rectangle the scan says nothing.
+    #[inline]
+    pub(super) fn told(&self, row: i64) -> impl Iterator<Item = (usize, &[u8])> {
+        let pieces = self.codes.row(self.area, row).chunks(PIECE).enumerate();
+        pieces.filter(|(_, codes)| is_told(codes)).map(|(number, codes)| (PIECE * number, codes))
+    }
+
     /// Calls `each` for each reading.
     pub(super) fn for_each(&self, mut each: impl FnMut(Reading)) {
         let Ok(()) = self.try_for_each(|reading| {
@@ -43,14 +51,27 @@ impl Readings {
 
     /// Calls `each` for each reading, up to the first error, which is returned.
     pub(super) fn try_for_each<E>(&self, mut each: impl FnMut(Reading) -> Result<(), E>) -> Result<(), E> {
+        let first = self.area.low()[0];
         for row in self.area.rows() {
-            let codes = self.codes.row(self.area, row);
-            for (column, &code) in (self.area.low()[0]..).zip(codes).filter(|&(_, &code)| code != NOTHING) {
-                each(Reading { cell: [column, row], log_odds: self.levels[usize::from(code - FREE)] })?;
+            for (start, codes) in self.told(row) {
+                let columns = first + start as i64..;
+                for (column, &code) in columns.zip(codes).filter(|&(_, &code)| code != NOTHING) {
+                    each(Reading { cell: [column, row], log_odds: self.levels[usize::from(code - FREE)] })?;
+                }
             }
         }
         self.others.iter().copied().try_for_each(each)
     }
+}
+
+/// So many cells are passed over at once if nothing is said of them: the bytes of an integer.
+const PIECE: usize = 16;
+
+/// Tells whether one of the codes is not [`NOTHING`].
+#[inline]
+fn is_told(codes: &[u8]) -> bool {
+    let all = <[u8; PIECE]>::try_from(codes).map(u128::from_ne_bytes);
+    all.map_or_else(|_| codes.iter().any(|&code| code != NOTHING), |all| all != 0)
 }
 
 /// The limits on the log-odds of a reading.

@@ -128,7 +128,7 @@ fn single(scan: &Scan<f64>) -> Scan<f32> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(40))]
+    #![proptest_config(ProptestConfig::with_cases(30))]
 
     /// Of two levels, which are counted; thicker than some ranges, too, and of one level alone.
     #[test]

@@ -24,8 +24,9 @@ use core::marker::PhantomData;
 /// rectangle of cells.
 ///
 /// Memory:
-/// * 8 bytes for each cell of the rectangle that was seen, while all readings together have at most two values, as those of a
-///   [`SteppedSensor`](crate::sensor::SteppedSensor) have; with more 16, [with agreement](Self::with_agreement) 32;
+/// * 4 bytes for each cell of the rectangle that was seen, while all readings together have at most two values, one of free
+///   cells and one of occupied, as those of a [`SteppedSensor`](crate::sensor::SteppedSensor) have; 8 from 65 536 scans on;
+///   with more values 16, [with agreement](Self::with_agreement) 32;
 /// * room to spare, half as much again on each side that grew, and while the map grows the old and the new one;
 /// * while a scan is inserted or removed, a byte for each cell of the rectangle of that scan, some 300 for each beam, and some 60
 ///   for each reading of a third value;
@@ -58,7 +59,7 @@ pub struct ScanMap<T> {
 
 impl<T: Real> ScanMap<T> {
     /// The most cells a map may have unless the caller says otherwise: `8192 x 8192`, which take 1 GiB at 16 bytes
-    /// each.
+    /// each, a quarter of it at 4.
     pub const MAX_CELLS: u64 = 1 << 26;
 
     /// The log-odds (nats) to which a reading is limited unless the caller says otherwise: those of `p = 0.971`.

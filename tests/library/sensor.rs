@@ -205,3 +205,32 @@ fn the_plateau_ends_where_the_occupancy_changes() {
     let steps = SteppedSensor::new(3.0_f64, 0.5, 0.125, 0.875).unwrap();
     assert_eq!(steps.plateau(), 2.75_f64.next_down());
 }
+
+proptest! {
+    /// The models are at most `p` up to where they say, by their own word at many distances, and say it late enough to be of use.
+    #[test]
+    fn free_space_is_at_most_as_occupied_as_asked(z in 0.05_f64..50.0, sigma in 0.001_f64..0.5, p in 1e-12_f64..0.49, part in 0.0_f64..1.0) {
+        fn check<T: Real>(z: T, sigma: T, p: T, part: T) -> Result<(), TestCaseError> {
+            let sensor = GaussianSensor::new(z, sigma)?;
+            let edge = sensor.free_until(p);
+            prop_assert!(edge >= T::zero() && edge < z);
+            prop_assert!(edge.is_zero() || (sensor.occupancy(edge) <= p && sensor.occupancy(edge * part) <= p));
+            let beyond = edge + (z + sigma) * T::from_parts(64, 0) * T::epsilon();
+            prop_assert!(sensor.occupancy(beyond) > p || sensor.occupancy(T::zero()) > p, "{:?}", edge);
+            Ok(())
+        }
+        check(z, sigma, p, part)?;
+        check(z as f32, sigma as f32, p as f32, part as f32)?;
+    }
+
+    #[test]
+    fn an_obstacle_is_one_occupancy(range in 0.05_f64..5.0, thickness in 0.01_f64..2.0, part in 0.0_f64..1.0) {
+        let sensor = SteppedSensor::new(range, thickness, 0.25, 0.875)?;
+        let ([near, far], p) = sensor.obstacle().expect("a wall");
+        for rho in [near, far, near + part * (far - near)] {
+            prop_assert_eq!(sensor.occupancy(rho), p);
+        }
+        prop_assert_eq!((far, sensor.occupancy(near.next_down())), (sensor.reach(), 0.25));
+        prop_assert_eq!(GaussianSensor::new(range, thickness)?.obstacle(), None);
+    }
+}

@@ -30,7 +30,7 @@ fn all() -> impl Iterator<Item = &'static Inequality> {
 }
 
 /// The statements that no search at points can try, and why.
-const ELSEWHERE: [(&str, &str, &str); 18] = [
+const ELSEWHERE: [(&str, &str, &str); 23] = [
     ("cell", "Theorem (no ties)", "no inequality"),
     ("evidence", "Theorem (removal)", "an equality, bit for bit: tests/library/scan/removal.rs"),
     (
@@ -51,6 +51,19 @@ const ELSEWHERE: [(&str, &str, &str); 18] = [
         "Corollary (pruned trees by depth)",
         "an equality, bit for bit: crates/cli/src/octree.rs, of random trees",
     ),
+    (
+        "scan",
+        "Theorem (directions)",
+        "of integers that are not public: src/rounded/angle.rs, against the series",
+    ),
+    (
+        "scan",
+        "Theorem (ends)",
+        "of integers that are not public: src/scan/lattice.rs, against exact quotients",
+    ),
+    ("scan", "Theorem (sure cells)", "an equality, bit for bit: src/scan/reference.rs, cell by cell"),
+    ("scan", "Theorem (columns)", "an equality: src/scan/columns.rs, against the traversal line by line"),
+    ("scan", "Theorem (counts)", "an equality, bit for bit: src/scan/reference.rs"),
     ("sums", "Theorem (exact sums)", "an equality, bit for bit: tests/library/tally.rs"),
     (
         "sums",

@@ -114,14 +114,15 @@ impl<T: Real> Tally<T> {
 
     /// Creates the tally of cells from their log-odds (nats), skipping NaN.
     ///
-    /// Equal, bit for bit, to the tally of the single cells (Eqs. 2 to 4; proved, [`sums`](crate::book::sums), "Log-odds,
-    /// many at once"), and many times as fast (feature `std`), as [`Tally::from_occupancies`] is.
+    /// Equal, bit for bit, to the tally of the single cells (Eqs. 2 to 4; proved, [`sums`](crate::book::sums), "Blocks of
+    /// log-odds"), and many times as fast (feature `std`), as [`Tally::from_occupancies`] is. The first call makes a table
+    /// of 229 KB (`f64`; `f32` has none).
     ///
     /// ```
     /// use mean_information::{Tally, cell::Cell};
     /// let cells: Vec<f64> = (0..10_000).map(|k| k as f64 / 1024.0 - 5.0).collect();
     /// let tally = Tally::from_log_odds(&cells);
-    /// assert_eq!(tally.mean_information(), 0.5437014150073842); // bits per observed cell
+    /// assert_eq!(tally.mean_information(), 0.5294652555959756); // bits per observed cell
     /// assert_eq!(tally, cells.into_iter().flat_map(Cell::from_log_odds).collect());
     /// ```
     pub fn from_log_odds(cells: &[T]) -> Self {

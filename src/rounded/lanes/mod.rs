@@ -4,7 +4,8 @@
 //! instructions: about each of some thousand centres, value and slope are known to twice the precision ([`table`]), the
 //! rest is a short polynomial ([`kernel`]), and a rounding test shows whether the sum of them all has one nearest
 //! float. The few cells that fail it are left to [`CellEnclosures`](super::CellEnclosures). So every vector unit gives
-//! the same bits: the right ones. The proof is in the chapter [`sums`](crate::book::sums).
+//! the same bits: the right ones. The results are summed up, or stored one by one ([`elementwise`]); [`log_odds`] has
+//! the same for log-odds. The proofs are in the chapter [`sums`](crate::book::sums).
 
 // A call or a branch in the loop and it is no longer made into vector instructions.
 #![allow(clippy::inline_always, clippy::needless_bitwise_bool)]

@@ -113,7 +113,7 @@ impl Lattice {
     /// units on, and for an infinity; 0 below 0, and for NaN.
     #[inline]
     pub(super) fn square_beyond(self, metres: f64) -> u128 {
-        if !(metres > 0.0) {
+        if metres.is_nan() || metres <= 0.0 {
             return 0;
         }
         let units = self.units_within(metres);

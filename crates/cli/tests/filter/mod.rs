@@ -42,7 +42,8 @@ fn log() -> String {
     let mut log = "PARAM ogain 2\nPARAM maxrange 40\n".to_owned();
     for step in 0..6 {
         let range = |k: i32| 2.0 + 0.01 * f64::from((7 * k + 13 * step) % 17);
-        let ranges = (0..180).map(|k| format!(" {:.2}", range(k))).collect::<String>();
+        let ranges: Vec<_> = (0..180).map(|k| format!(" {:.2}", range(k))).collect();
+        let ranges = ranges.concat();
         writeln!(log, "LASER_READING 180{ranges} 0 0 0 {}", 10.5 + 1.25 * f64::from(step)).unwrap();
         let particle = |k: i32| {
             let [x, y, theta] = [0.11, 0.03, 0.02].map(|drift| drift * f64::from(step * (1 + k)));

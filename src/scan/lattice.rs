@@ -297,6 +297,10 @@ mod tests {
             prop_assert!(square > units * units || square <= lattice.square_beyond(metres));
             prop_assert!(square <= units * units || rho >= metres - 1e-8);
         }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(10_000))]
 
         /// The bits of the exact quotient rounded once, with directions along the axes and lengths that end in the middle of two
         /// places.

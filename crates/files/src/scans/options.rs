@@ -11,7 +11,7 @@ pub struct ScanOptions {
     pub time: TimeField,
 }
 
-/// What is taken of a file that holds more than one log: a bag, a saved state. The default is what there is only one of, and
+/// A choice among the logs that a file holds, a bag or a saved state. The default is what there is only one of, and
 /// the trajectories of the frames `map` and `odom`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Selection {

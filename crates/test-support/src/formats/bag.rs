@@ -38,7 +38,7 @@ pub fn mcap_at(encoding: &str, topics: &[Topic<'_>], messages: &[(u16, u64, Vec<
 /// Writes fields as CDR or, without its four bytes of head, as ROS 1.
 #[derive(Clone, Debug)]
 pub struct Writer {
-    /// What was written.
+    /// The bytes that were written.
     pub bytes: Vec<u8>,
     big_endian: bool,
     ros1: bool,

@@ -281,7 +281,7 @@ mod tests {
             };
             let exact = big(metres.max(0.0)) << FRACTION;
             prop_assert!(&square * big(resolution).pow(2) >= exact.pow(2));
-            let less = BigInt::from(square.sqrt()) - 2;
+            let less = square.sqrt() - 2;
             prop_assert!(&less - (&less >> 48) <= exact / big(resolution));
         }
 

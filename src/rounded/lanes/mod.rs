@@ -163,7 +163,7 @@ of_occupancies!(double, f64);
 mod single_log_odds {
     use super::log_odds::single::{results, sums as block};
     use super::log_odds::{Entropy, Information, Occupancy};
-    use super::*;
+    use super::{BLOCK, Block, multiversion, target_cfg_f};
 
     by_target!(
         pub(super) fn sums(cells: &[f32; BLOCK]) -> Block {
@@ -197,7 +197,7 @@ mod double_log_odds {
     use super::log_odds::double::{results, sums as block};
     use super::log_odds::table::{Table, of_information, of_occupancy};
     use super::log_odds::{Entropy, Information, Occupancy};
-    use super::*;
+    use super::{BLOCK, Block, LazyLock, multiversion, target_cfg_f};
 
     /// Holds the table of information and entropy, made when first needed.
     static TABLE: LazyLock<Table> = LazyLock::new(|| Table::new(of_information));

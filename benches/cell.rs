@@ -98,8 +98,8 @@ fn cells(criterion: &mut Criterion) {
     Comparison::new(criterion, "H + I, uniform p", &uniform, |_| 1.0).time("Cell", both, f64::EPSILON);
 }
 
-/// Its name, its arguments, the function of many cells, that of one.
-type Function<'a> = (&'a str, &'a [f64], fn(&[f64], &mut [f64]), fn(f64) -> f64);
+/// A name, arguments, the function of many cells and that of one.
+type Function<'a> = (&'static str, &'a [f64], fn(&[f64], &mut [f64]), fn(f64) -> f64);
 
 /// Many cells at once, from a slice into a slice.
 fn elementwise(criterion: &mut Criterion) {
@@ -107,7 +107,7 @@ fn elementwise(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("elementwise");
     group.throughput(Throughput::Elements(COUNT as u64));
     let mut results = vec![0.0; COUNT];
-    let functions: [Function<'_>; 5] = [
+    let functions: [Function; 5] = [
         ("H", &uniform, many::entropy, entropy),
         ("I", &uniform, many::information, information),
         ("H, log-odds", &odds, many::entropy_from_log_odds, entropy_from_log_odds),

@@ -8,7 +8,7 @@
 //! the same for log-odds. The proofs are in the chapter [`sums`](crate::book::sums).
 
 // A call or a branch in the loop and it is no longer made into vector instructions.
-#![allow(clippy::inline_always, clippy::needless_bitwise_bool, clippy::manual_range_contains)]
+#![allow(clippy::inline_always, clippy::needless_bitwise_bool)]
 
 mod elementwise;
 mod format;
@@ -163,9 +163,7 @@ of_occupancies!(double, f64);
 mod single_log_odds {
     use super::log_odds::single::{results, sums as block};
     use super::log_odds::{Entropy, Information, Occupancy};
-    // What the macro needs differs with the features.
-    #[allow(clippy::wildcard_imports)]
-    use super::*;
+    use super::{BLOCK, Block, multiversion, target_cfg_f};
 
     by_target!(
         pub(super) fn sums(cells: &[f32; BLOCK]) -> Block {
@@ -199,9 +197,7 @@ mod double_log_odds {
     use super::log_odds::double::{results, sums as block};
     use super::log_odds::table::{Table, of_information, of_occupancy};
     use super::log_odds::{Entropy, Information, Occupancy};
-    // What the macro needs differs with the features.
-    #[allow(clippy::wildcard_imports)]
-    use super::*;
+    use super::{BLOCK, Block, LazyLock, multiversion, target_cfg_f};
 
     /// Holds the table of information and entropy, made when first needed.
     static TABLE: LazyLock<Table> = LazyLock::new(|| Table::new(of_information));

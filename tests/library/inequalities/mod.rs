@@ -73,7 +73,7 @@ const ELSEWHERE: [(&str, &str, &str); 23] = [
     (
         "sums",
         "Theorem (log-odds)",
-        "an equality, bit for bit: tests/library/elementwise.rs, every f32 in proofs/RESULTS.md",
+        "an equality, bit for bit: tests/library/elementwise.rs, proofs/exhaust.sh",
     ),
     ("rounding", "Lemma (ties)", "no inequality"),
     ("rounding", "Lemma (Horner)", "machine-checked: proofs/*.gappa"),

@@ -54,8 +54,9 @@ pub(in super::super) fn sums<const FUSED: bool, const ENTROPY: bool>(
         let (other, other_above) = complements(head, below, above);
         let near = a < NEAR;
         let unknown = a == 0.0;
-        let mut done = (a >= FIRST) & (a <= LAST);
-        let certain = if ENTROPY { a == f64::INFINITY } else { a > LAST };
+        let beyond = a > LAST;
+        let mut done = (a >= FIRST) & !beyond;
+        let certain = if ENTROPY { a == f64::INFINITY } else { beyond };
         if ENTROPY {
             // Sums: a float of 53 bits from `LEAST` on is a multiple of `2^-102`.
             done &= (value == value_above) & (other == other_above) & (value >= LEAST);

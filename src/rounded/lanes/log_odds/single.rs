@@ -11,7 +11,7 @@ use crate::rounded::lanes::kernel::{BLOCK, Block, NO_SUM, Sum, fused, mark};
 use core::f64::consts::LOG2_E;
 
 /// Bounds the error before rounding, relative to each of entropy, information and occupancy.
-const ERROR: f64 = 4e-12; // 2^-37.86
+pub(super) const ERROR: f64 = 4e-12; // 2^-37.86
 /// The magnitude from which on results are those of infinity: entropies are below `2^-150`.
 const FAR: f64 = 128.0;
 /// The least result, but for 0, that the sums hold exactly.
@@ -83,7 +83,7 @@ fn bounds(x: f64) -> (f32, f32) {
 
 /// Computes `e^-a` for `a` up to [`FAR`].
 #[inline(always)]
-fn exp_minus<const FUSED: bool>(a: f64) -> f64 {
+pub(super) fn exp_minus<const FUSED: bool>(a: f64) -> f64 {
     let fused = fused::<f64, FUSED>;
     // Exponential: `a = k ln 2 + r`, `|r| <= ln 2 / 2`; the last bits of `shifted` are those of `k`.
     let shifted = fused(a, LOG2_E, ROUND);
@@ -96,7 +96,7 @@ fn exp_minus<const FUSED: bool>(a: f64) -> f64 {
 
 /// Computes `V`: the information up to [`NEAR`], the entropy from there on.
 #[inline(always)]
-fn value<const FUSED: bool>(a: f64, e: f64) -> f64 {
+pub(super) fn value<const FUSED: bool>(a: f64, e: f64) -> f64 {
     let square = a * a;
     let information = square * horner::<FUSED, _>(&INFORMATION, square);
     // Entropy: `log2 (1 + e) + l / ln 2 e / (1 + e)`.

@@ -2,7 +2,7 @@
 
 use super::table::{FIRST, LAST, SEVENTH, SIXTH, Table, centres, of_information, of_occupancy};
 use super::{Entropy, Information, NEAR, Occupancy, Quantity, double, single};
-use crate::cell::{Cell, State, occupancy_from_log_odds};
+use crate::cell::{Cell, State, entropy_from_log_odds, information_from_log_odds, occupancy_from_log_odds};
 use crate::real::Real;
 use crate::rounded::beyond_float::{self, Fixed};
 use crate::rounded::lanes::format::Lane;
@@ -213,6 +213,23 @@ fn errors_are_within_the_bound() {
             let share = largest / double::ERROR;
             assert!((0.1..=1.0).contains(&share), "{share}");
         }
+    }
+}
+
+/// The same of the kernels of `f32`, whose value is a float: beside the functions in `f64`, which are a thousand times as near.
+#[test]
+fn errors_in_single_precision_are_within_the_bound() {
+    fn largest<const FUSED: bool>() -> f64 {
+        let errors = (1..16_000).map(|k| f64::from(k as f32 * 0.00377)).flat_map(|a| {
+            let e = single::exp_minus::<FUSED>(a);
+            let v = single::value::<FUSED>(a, e);
+            let exact = if a < NEAR { information_from_log_odds(a) } else { entropy_from_log_odds(a) };
+            [v / exact - 1.0, e / (1.0 + e) / occupancy_from_log_odds(-a) - 1.0, (exact - v) / (1.0 - exact)]
+        });
+        errors.map(f64::abs).fold(0.0, f64::max)
+    }
+    for share in [largest::<true>(), largest::<false>()].map(|largest| largest / single::ERROR) {
+        assert!((0.1..=1.0).contains(&share), "{share}");
     }
 }
 

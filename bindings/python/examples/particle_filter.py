@@ -1,7 +1,7 @@
 """A particle filter's maps: how consistent are its hypotheses? `python particle_filter.py`
 
-Three particles agree on a corridor and disagree on a wall. The mean information of each map says little about that; that of
-the expected map, EMMI, falls as weight goes to particles that disagree.
+Three particles agree on a corridor and disagree on a wall. The mean information of each map says nothing of that; that of
+the expected map, EMMI, falls as soon as particles that disagree have weight.
 """
 
 import mean_information as mi

@@ -60,17 +60,17 @@ impl<S: Copy> Chosen<'_, S> {
     /// Measures the cells.
     ///
     /// # Errors
-    /// `ValueError` naming the first cell whose value is not allowed; what signals raise.
-    pub(crate) fn measure<E: Encoding<Stored = S>, M: Sums<E>>(&self, steps: &mut Steps) -> PyResult<M> {
+    /// A cell whose value is not allowed, for [`Self::refusal`]; what signals raise.
+    pub(crate) fn measure<E: Encoding<Stored = S>, M: Sums<E>>(&self, steps: &mut Steps) -> Result<M, Stop> {
         let mut sums = M::none();
         let mut take = |piece: &[S]| {
             let part = M::of(piece);
             // Sums skip what is not allowed, so that their count tells of it.
             if part.cells() != piece.len() as u64 {
-                return Err(self.refusal::<E>());
+                return Err(Stop::NotAllowed);
             }
             sums.merge(&part);
-            steps.add(piece.len() as u64)
+            Ok(steps.add(piece.len() as u64)?)
         };
         match (self.cells.as_slice_memory_order(), &self.mask) {
             (Some(all), None) => all.chunks(PIECE).try_for_each(take)?,
@@ -92,8 +92,12 @@ impl<S: Copy> Chosen<'_, S> {
         Ok(sums)
     }
 
-    /// Returns the refusal of the first cell, in the order of indices, whose value is not allowed.
-    fn refusal<E: Encoding<Stored = S>>(&self) -> PyErr {
+    /// Returns why measuring the array, or a part of it, stopped: `ValueError` naming the first cell, in the order of indices,
+    /// whose value is not allowed.
+    pub(crate) fn refusal<E: Encoding<Stored = S>>(&self, stop: Stop) -> PyErr {
+        if let Stop::Raised(error) = stop {
+            return error;
+        }
         for (index, &cell) in self.cells.indexed_iter() {
             let is_meant = self.mask.as_ref().is_none_or(|mask| mask[index.clone()] != 0);
             if is_meant && !E::is_valid(cell) {
@@ -113,8 +117,20 @@ impl<S: Copy> Chosen<'_, S> {
     }
 }
 
+/// Why measuring stopped.
+pub(crate) enum Stop {
+    NotAllowed,
+    Raised(PyErr),
+}
+
+impl From<PyErr> for Stop {
+    fn from(error: PyErr) -> Self {
+        Self::Raised(error)
+    }
+}
+
 /// Returns what a fold ended with.
-fn finish(fold: FoldWhile<PyResult<()>>) -> PyResult<()> {
+fn finish(fold: FoldWhile<Result<(), Stop>>) -> Result<(), Stop> {
     fold.into_inner()
 }
 
@@ -124,12 +140,12 @@ struct Gathered<S, F> {
     take: F,
 }
 
-impl<S, F: FnMut(&[S]) -> PyResult<()>> Gathered<S, F> {
+impl<S, F: FnMut(&[S]) -> Result<(), Stop>> Gathered<S, F> {
     fn new(take: F) -> Self {
         Self { buffer: Vec::with_capacity(GATHERED), take }
     }
 
-    fn push(&mut self, cell: S) -> FoldWhile<PyResult<()>> {
+    fn push(&mut self, cell: S) -> FoldWhile<Result<(), Stop>> {
         self.buffer.push(cell);
         if self.buffer.len() < GATHERED {
             return FoldWhile::Continue(Ok(()));
@@ -140,7 +156,7 @@ impl<S, F: FnMut(&[S]) -> PyResult<()>> Gathered<S, F> {
         }
     }
 
-    fn end(&mut self) -> PyResult<()> {
+    fn end(&mut self) -> Result<(), Stop> {
         let done = (self.take)(&self.buffer);
         self.buffer.clear();
         done

@@ -26,7 +26,7 @@ pub(crate) fn of_file(error: mean_information_files::Error) -> PyErr {
     }
 }
 
-/// Spells the command's options as Python's arguments: `--max-cells` as `max_cells=`.
+/// Spells the command's options as Python's arguments: `--max-cells` as `max_cells`.
 pub(crate) fn in_python(words: &str) -> String {
     let mut parts = words.split("--");
     let mut text = parts.next().unwrap_or_default().to_owned();
@@ -37,8 +37,7 @@ pub(crate) fn in_python(words: &str) -> String {
             text += part;
         } else {
             text += &part[..end].replace('-', "_");
-            text += "=";
-            text += &part[end..].strip_prefix(' ').map_or_else(|| part[end..].to_owned(), str::to_owned);
+            text += &part[end..];
         }
     }
     text

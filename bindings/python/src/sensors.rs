@@ -34,7 +34,12 @@ impl PyGaussianSensor {
         Ok(Self { sigma })
     }
 
-    /// Compute the occupancy of a point at `distance` metres by a reading of `range` metres; correctly rounded (proved).
+    /// Compute the occupancy of a point at `distance` metres by a reading of `range` metres.
+    ///
+    /// Returns
+    /// -------
+    /// float
+    ///     Correctly rounded (proved).
     fn occupancy(&self, distance: f64, range: f64) -> PyResult<f64> {
         Ok(GaussianSensor::new(range, self.sigma).map_err(refused)?.occupancy(distance))
     }
@@ -81,6 +86,10 @@ impl PySteppedSensor {
     }
 
     /// Compute the occupancy of a point at `distance` metres by a reading of `range` metres.
+    ///
+    /// Returns
+    /// -------
+    /// float
     fn occupancy(&self, distance: f64, range: f64) -> PyResult<f64> {
         let sensor = SteppedSensor::new(range, self.thickness, self.free, self.occupied).map_err(refused)?;
         Ok(sensor.occupancy(distance))

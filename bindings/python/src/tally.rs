@@ -271,7 +271,11 @@ pub(crate) fn tally_of(
     let mask = mask.as_ref().map(PyReadonlyArrayDyn::as_array);
     with_encoding!(Array::new(cells, encoding)?, cells, Encoding_ => {
         let chosen = Chosen { cells: cells.as_array(), mask };
-        py.detach(|| chosen.measure::<Encoding_, Tally<_>>(&mut Steps::default())).map(PyTally::from)
+        let measured = py.detach(|| {
+            let sums = chosen.measure::<Encoding_, Tally<_>>(&mut Steps::default());
+            sums.map_err(|stop| chosen.refusal::<Encoding_>(stop))
+        });
+        measured.map(PyTally::from)
     })
 }
 
@@ -289,7 +293,10 @@ pub(crate) fn mean_of<'py>(
     with_encoding!(Array::new(cells, encoding)?, cells, Encoding_ => {
         let chosen = Chosen { cells: cells.as_array(), mask };
         let Some(axes) = axes else {
-            let sum: InformationSum<_> = py.detach(|| chosen.measure::<Encoding_, _>(&mut Steps::default()))?;
+            let sum = py.detach(|| {
+                let sum = chosen.measure::<Encoding_, InformationSum<_>>(&mut Steps::default());
+                sum.map_err(|stop| chosen.refusal::<Encoding_>(stop))
+            })?;
             return Ok(sum.mean().widen().into_pyobject(py)?.into_any());
         };
         let means = py.detach(|| along::<Encoding_>(&chosen, &axes))?;
@@ -315,10 +322,9 @@ where
                 mask.index_axis_inplace(Axis(axis), at);
             }
         }
-        let sum = part.measure::<E, InformationSum<E::Float>>(&mut steps).map_err(|error| {
-            // The index is that in the whole array.
-            chosen.measure::<E, InformationSum<E::Float>>(&mut Steps::default()).err().unwrap_or(error)
-        })?;
+        // The index in a refusal is that in the whole array.
+        let sum = part.measure::<E, InformationSum<E::Float>>(&mut steps);
+        let sum = sum.map_err(|stop| chosen.refusal::<E>(stop))?;
         means.push(sum.mean());
         steps.add(100)?;
     }

@@ -32,7 +32,7 @@ def test_expected_maps_of_every_encoding():
     single = mi.expected_map(np.float32([[[0.25]], [[0.5]]]))
     assert single.probabilities.dtype == np.float32 and single.tally.dtype == np.float32
     assert mi.expected_map([[[2.0]]], encoding="log-odds").tally.information == pytest.approx(0.4729346589968384, rel=1e-15)
-    assert mi.expected_map([np.array([[-32]], np.int8)], encoding="mrpt").tally.free == 1
+    assert mi.expected_map([np.array([[-32]], np.int8)], encoding="mrpt").tally.occupied == 1
 
 
 def test_bad_particles_are_refused():

@@ -13,7 +13,7 @@ METHODS = {
     for name, kind in PUBLIC.items()
     if inspect.isclass(kind)
     for method in dir(kind)
-    if not method.startswith("_")
+    if not method.startswith("_") and callable(getattr(kind, method))
 }
 
 

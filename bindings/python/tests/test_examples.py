@@ -28,7 +28,7 @@ def test_a_map_and_a_particle_filter(maps, monkeypatch, capsys):
     run("particle_filter.py", monkeypatch=monkeypatch)
     lines = capsys.readouterr().out.splitlines()[1:]
     emmi = [float(line.split("EMMI ")[1].split(",")[0]) for line in lines]
-    assert emmi == sorted(emmi, reverse=True)
+    assert emmi[0] > max(emmi[1:])
 
 
 def test_trajectories(maps, monkeypatch, capsys, tmp_path):
@@ -114,7 +114,7 @@ def test_datafusion(fleet, view):
     assert context.table("tiles").schema().field("cells").type == (pa.binary_view() if view else pa.binary())
     fleet_datafusion.register(context, pa.binary_view() if view else pa.binary())
 
-    plan = "\n".join(str(column) for batch in context.sql(f"EXPLAIN {fleet_datafusion.BY_MAP}").collect() for column in batch)
+    plan = "".join(row["plan"] for row in context.sql(f"EXPLAIN {fleet_datafusion.BY_MAP}").to_pylist())
     assert "mode=Partial" in plan and "mode=FinalPartitioned" in plan
     rows = context.sql(fleet_datafusion.BY_MAP).to_pylist()
     assert {row["map_id"]: mi.Tally.from_bytes(row["tally"]) for row in rows} == whole

@@ -2,7 +2,7 @@
 
 >>> import mean_information as mi
 >>> mi.mean_information([0.1, 0.1, 0.9, 0.5])
-0.5310044064107187
+0.5310044064107188
 
 * Functions of cells are NumPy ufuncs: `information`, `entropy`, `information_from_log_odds`, `entropy_from_log_odds`,
   `occupancy_from_log_odds`, `log_odds_from_occupancy`.

@@ -1,12 +1,44 @@
 from collections.abc import Sequence
 from os import PathLike
-from typing import Any, ClassVar, Literal, Protocol, final
+from typing import Any, ClassVar, Literal, final
 
 from typing_extensions import Buffer
 
 import numpy as np
 import numpy.typing as npt
 
+from ._sensors import Sensor
+
+__all__ = [
+    "ExpectedMap",
+    "GaussianSensor",
+    "Limit",
+    "Map",
+    "RangeScan",
+    "ScanLog",
+    "ScanMap",
+    "SteppedSensor",
+    "Tally",
+    "Trajectory",
+    "__version__",
+    "arguments_of",
+    "command",
+    "entropy",
+    "entropy_from_log_odds",
+    "expected_map",
+    "information",
+    "information_from_log_odds",
+    "limit",
+    "log_odds_from_occupancy",
+    "mean_information",
+    "occupancy_from_log_odds",
+    "operation_names",
+    "read_map",
+    "read_scans",
+    "read_trajectory",
+    "run_operation",
+    "tally",
+]
 __version__: str
 
 entropy: np.ufunc
@@ -72,12 +104,6 @@ class Limit:
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
-
-class Sensor(Protocol):
-    """A model of readings: what `ScanMap` takes. Distances are in metres."""
-
-    def occupancy(self, distance: float, range: float, /) -> float: ...
-    def reach(self, range: float, /) -> float: ...
 
 @final
 class GaussianSensor:

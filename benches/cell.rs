@@ -10,8 +10,9 @@ use core::f64::consts::LN_2;
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
 use mean_information::cell::{
-    Cell, entropy, information, information_from_log_odds, occupancy_from_log_odds,
+    Cell, entropy, entropy_from_log_odds, information, information_from_log_odds, occupancy_from_log_odds,
 };
+use mean_information::elementwise as many;
 use std::hint::black_box;
 
 const COUNT: usize = 1024;
@@ -97,5 +98,25 @@ fn cells(criterion: &mut Criterion) {
     Comparison::new(criterion, "H + I, uniform p", &uniform, |_| 1.0).time("Cell", both, f64::EPSILON);
 }
 
-criterion_group!(benches, cells);
+/// Many cells at once, from a slice into a slice.
+fn elementwise(criterion: &mut Criterion) {
+    let (uniform, odds) = (arguments(|u| u), arguments(|u| 16.0 * (u - 0.5)));
+    let mut group = criterion.benchmark_group("elementwise");
+    group.throughput(Throughput::Elements(COUNT as u64));
+    let mut results = vec![0.0; COUNT];
+    let functions: [(_, _, fn(&[f64], &mut [f64]), fn(f64) -> f64); 5] = [
+        ("H", &uniform, many::entropy, entropy),
+        ("I", &uniform, many::information, information),
+        ("H, log-odds", &odds, many::entropy_from_log_odds, entropy_from_log_odds),
+        ("I, log-odds", &odds, many::information_from_log_odds, information_from_log_odds),
+        ("p, log-odds", &odds, many::occupancy_from_log_odds, occupancy_from_log_odds),
+    ];
+    for (name, arguments, many, one) in functions {
+        many(arguments, &mut results);
+        assert!(arguments.iter().zip(&results).all(|(&x, &result)| result == one(x)));
+        group.bench_function(name, |bencher| bencher.iter(|| many(black_box(arguments), &mut results)));
+    }
+}
+
+criterion_group!(benches, cells, elementwise);
 criterion_main!(benches);

@@ -61,6 +61,12 @@ fn encoding<E: Encoding>(criterion: &mut Criterion, name: &str, cells: &[E::Stor
 fn floats(criterion: &mut Criterion) {
     encoding::<Probability<f64>>(criterion, "f64", &occupancies());
     encoding::<Probability<f32>>(criterion, "f32", &occupancies());
+    // Every other cell unknown as NaN, in no order.
+    let half = occupancies::<f64>().into_iter().zip(bytes(|_| true));
+    let half: Vec<f64> = half.map(|(p, byte)| if byte < 0 { f64::NAN } else { p }).collect();
+    encoding::<Probability<f64>>(criterion, "f64, half NaN", &half);
+    let half: Vec<f32> = half.into_iter().map(|p| p as f32).collect();
+    encoding::<Probability<f32>>(criterion, "f32, half NaN", &half);
     let cells = occupancies::<f64>();
     let mut group = criterion.benchmark_group("f64");
     group.throughput(Throughput::Elements(COUNT as u64));
@@ -117,6 +123,8 @@ fn log_odds(criterion: &mut Criterion) {
     encoding::<LogOdds<f64>>(criterion, "log-odds, 8000 values", &many);
     let all: Vec<f64> = occupancies::<f64>().into_iter().map(|p| 12.0 * p - 6.0).collect();
     encoding::<LogOdds<f64>>(criterion, "log-odds, all different", &all);
+    let all: Vec<f32> = all.into_iter().map(|l| l as f32).collect();
+    encoding::<LogOdds<f32>>(criterion, "log-odds in f32, all different", &all);
 }
 
 criterion_group!(benches, floats, stored_bytes, pieces, log_odds);

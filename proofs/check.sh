@@ -48,6 +48,11 @@ if wanted constants.sollya; then
     verdict constants.sollya $?
 fi
 
+if wanted log_odds.sollya; then
+    sollya proofs/log_odds.sollya < /dev/null 2>&1 | diff - src/rounded/lanes/log_odds/polynomials.rs > "$output"
+    verdict log_odds.sollya $?
+fi
+
 # Internal precision: integers here have up to 256 bits. A denominator is 1 plus something that is not negative.
 for script in proofs/*.gappa; do
     case "$script" in proofs/lanes_*) continue ;; esac
@@ -58,17 +63,22 @@ for script in proofs/*.gappa; do
     verdict "$(basename "$script")" "$status"
 done
 
-# The vector kernels: each row of their tables, then their scripts for each value and binade of distances.
-if wanted rows.sollya; then
+# rows SCRIPT FILE TEST NUMBERS: whether each number of the rows, from FILE or printed by a unit test, is as the script says.
+rows() {
+    wanted "$1" || return 0
     {
-        cat proofs/rows.sollya
-        { cat "${ROWS:-/dev/null}"; [ -n "${ROWS:-}" ] || cargo test --quiet --lib rows_for_the_proof -- --ignored --nocapture; } | grep '^row('
+        cat "proofs/$1"
+        { cat "${2:-/dev/null}"; [ -n "$2" ] || cargo test --quiet --lib "$3" -- --ignored --nocapture; } | grep '^row('
         echo 'print(numbers, "numbers");'
     } > "$input" 2> /dev/null
     sollya "$input" < /dev/null > "$output" 2>&1
-    [ "$(cat "$output")" = "57630 numbers" ]
-    verdict rows.sollya $?
-fi
+    [ "$(cat "$output")" = "$4 numbers" ]
+    verdict "$1" $?
+}
+
+# The vector kernels: each row of their tables, then their scripts for each value and binade of distances.
+rows rows.sollya "${ROWS:-}" lanes::tests::rows_for_the_proof 57630
+rows log_odds_rows.sollya "" log_odds::tests::rows_for_the_proof 89782
 for script in proofs/lanes_*.gappa; do
     wanted "$(basename "$script")" || continue
     # The ranges of all scripts, made once.

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Every f32: the five functions of a cell over all occupancies and all log-odds, the same cells in blocks, and 100 million random
-# f64 in blocks; and lines for proofs/RESULTS.md.
+# Every f32: the five functions of a cell over all occupancies and all log-odds, the same cells in blocks, and 10 million random
+# f64 in blocks of log-odds; and lines for proofs/RESULTS.md.
 # Some ten minutes on two processors. Lines "near-tie FUNCTION BITS" go to vectors/generate/near_ties_f32.txt.
 set -eu
 cd "$(dirname "$0")/.."

@@ -285,7 +285,7 @@ def main():
         # What every copy reads, made once.
         rows, regions = f"{folder}/rows", f"{folder}/regions"
         with open(rows, "w") as file:
-            command = ["cargo", "test", "--quiet", "--lib", "rows_for_the_proof", "--", "--ignored", "--nocapture"]
+            command = ["cargo", "test", "--quiet", "--lib", "lanes::tests::rows_for_the_proof", "--", "--ignored", "--nocapture"]
             subprocess.run(command, cwd=ROOT, check=True, stdout=file, stderr=subprocess.DEVNULL)
         with open(regions, "w") as file:
             subprocess.run(["sollya", ROOT / "proofs/lanes.sollya"], stdin=subprocess.DEVNULL, stdout=file)

@@ -1,26 +1,74 @@
 //! Functions of many cells at once: from a slice into a slice, each element correctly rounded.
 //!
 //! An element has the bits of the function of the same name in [`cell`], whatever the processor: these are the loops
-//! that array languages call.
+//! that array languages call. With the feature `std` blocks of cells go through the vector kernels, and only those that
+//! a kernel leaves undecided through the function of a single cell ([`sums`](crate::book::sums), "One by one").
 
 use crate::cell;
 use crate::real::Real;
+#[cfg(feature = "std")]
+use crate::rounded::lanes::{self, BLOCK};
+
+/// The number of arguments below which single calls are as fast as a block, and need no tables.
+#[cfg(feature = "std")]
+const FEW: usize = 16;
+
+/// Stores the results of a kernel, and those of `function` where the kernel leaves them undecided.
+macro_rules! each {
+    ($arguments:ident, $results:ident, $kernel:ident, $function:ident) => {
+        let (given, places) = ($arguments.len(), $results.len());
+        assert!(given == places, "{given} arguments need as many places for results, not {places}");
+        #[cfg(feature = "std")]
+        by_blocks($arguments, $results, lanes::$kernel, cell::$function);
+        #[cfg(not(feature = "std"))]
+        one_by_one($arguments, $results, cell::$function);
+    };
+}
 
 /// Calls `function` for each argument and stores its results.
-///
-/// # Panics
-/// If the slices differ in length.
-fn each<T: Real>(arguments: &[T], results: &mut [T], function: fn(T) -> T) {
-    assert_lengths(arguments, results);
+fn one_by_one<T: Real>(arguments: &[T], results: &mut [T], function: fn(T) -> T) {
     for (result, &argument) in results.iter_mut().zip(arguments) {
         *result = function(argument);
     }
 }
 
-/// Asserts that there is a place for each result.
-fn assert_lengths<T>(arguments: &[T], results: &[T]) {
-    let (given, places) = (arguments.len(), results.len());
-    assert!(given == places, "{given} arguments need as many places for results, not {places}");
+/// Stores the results of a kernel of blocks, and those of `function` where the kernel leaves them undecided.
+#[cfg(feature = "std")]
+fn by_blocks<T: Real>(
+    arguments: &[T],
+    results: &mut [T],
+    kernel: fn(&[T; BLOCK], &mut [T; BLOCK]),
+    function: fn(T) -> T,
+) {
+    let (blocks, last) = arguments.as_chunks::<BLOCK>();
+    let (places, last_places) = results.as_chunks_mut::<BLOCK>();
+    for (block, places) in blocks.iter().zip(places) {
+        kernel(block, places);
+        settle(block, places, function);
+    }
+    if last.len() < FEW {
+        return one_by_one(last, last_places, function);
+    }
+    let (mut padded, mut found) = ([T::nan(); BLOCK], [T::nan(); BLOCK]);
+    padded[..last.len()].copy_from_slice(last);
+    kernel(&padded, &mut found);
+    last_places.copy_from_slice(&found[..last.len()]);
+    settle(last, last_places, function);
+}
+
+/// Replaces the results that are not decided: the negative ones.
+#[cfg(feature = "std")]
+fn settle<T: Real>(arguments: &[T], results: &mut [T], function: fn(T) -> T) {
+    // Eight at a time, since there are few.
+    for (arguments, results) in arguments.chunks(8).zip(results.chunks_mut(8)) {
+        if results.iter().fold(false, |open, &result| open | (result < T::zero())) {
+            for (result, &argument) in results.iter_mut().zip(arguments) {
+                if *result < T::zero() {
+                    *result = function(argument);
+                }
+            }
+        }
+    }
 }
 
 /// Computes the entropy `H(p) = -p log2 p - (1-p) log2 (1-p)` of each occupancy, in bits (Eq. 1 in base 2).
@@ -39,7 +87,7 @@ fn assert_lengths<T>(arguments: &[T], results: &[T]) {
 /// assert!(bits[2].is_nan());
 /// ```
 pub fn entropy<T: Real>(occupancies: &[T], results: &mut [T]) {
-    each(occupancies, results, cell::entropy);
+    each!(occupancies, results, entropies, entropy);
 }
 
 /// Computes the information `I(p) = 1 - H(p)` of each occupancy, in bits (Eq. 3).
@@ -57,7 +105,7 @@ pub fn entropy<T: Real>(occupancies: &[T], results: &mut [T]) {
 /// assert_eq!(bits, [0.18872187554086714, 0.0, 1.0]);
 /// ```
 pub fn information<T: Real>(occupancies: &[T], results: &mut [T]) {
-    each(occupancies, results, cell::information);
+    each!(occupancies, results, informations, information);
 }
 
 /// Computes the entropy of each cell of log-odds `l` (nats), in bits (Eq. 1).
@@ -76,7 +124,7 @@ pub fn information<T: Real>(occupancies: &[T], results: &mut [T]) {
 /// assert_eq!(bits, [0.5270653410031616, 1.0, 0.0]);
 /// ```
 pub fn entropy_from_log_odds<T: Real>(log_odds: &[T], results: &mut [T]) {
-    each(log_odds, results, cell::entropy_from_log_odds);
+    each!(log_odds, results, entropies_from_log_odds, entropy_from_log_odds);
 }
 
 /// Computes the information of each cell of log-odds `l` (nats), in bits (Eq. 3).
@@ -95,7 +143,7 @@ pub fn entropy_from_log_odds<T: Real>(log_odds: &[T], results: &mut [T]) {
 /// assert_eq!(bits, [0.4729346589968384, 0.0, 1.0]);
 /// ```
 pub fn information_from_log_odds<T: Real>(log_odds: &[T], results: &mut [T]) {
-    each(log_odds, results, cell::information_from_log_odds);
+    each!(log_odds, results, informations_from_log_odds, information_from_log_odds);
 }
 
 /// Computes the occupancy `p = 1 / (1 + e^-l)` of each cell of log-odds `l` (nats).
@@ -114,5 +162,5 @@ pub fn information_from_log_odds<T: Real>(log_odds: &[T], results: &mut [T]) {
 /// assert_eq!(occupancies, [0.11920292202211756, 0.5, 1.0]);
 /// ```
 pub fn occupancy_from_log_odds<T: Real>(log_odds: &[T], results: &mut [T]) {
-    each(log_odds, results, cell::occupancy_from_log_odds);
+    each!(log_odds, results, occupancies_from_log_odds, occupancy_from_log_odds);
 }

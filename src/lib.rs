@@ -78,7 +78,7 @@
 //! with ground truth: a map that is certain and wrong has a high mean information.
 //!
 //! # Features
-//! * `std` (default): maps of occupancies in floats are measured by the vector unit of the processor it runs on, to the same
+//! * `std` (default): maps of occupancies or log-odds in floats are measured by the vector unit of the processor it runs on, to the same
 //!   bits, many times as fast (`benches/RESULTS.md`). Without it the crate is `no_std` + `alloc`.
 //! * `rayon`: maps, rooms, scans' maps and expected maps are measured by several threads, to the same bits
 //!   (`Grid::par_tally` and others).

@@ -17,15 +17,31 @@ mod sealed {
         Double(&'a [f64; N]),
     }
 
+    /// Arguments and the places of their results, in either format.
+    #[derive(Debug)]
+    pub enum Pair<'a, const N: usize> {
+        /// Floats of 32 bits.
+        Single(&'a [f32; N], &'a mut [f32; N]),
+        /// Floats of 64 bits.
+        Double(&'a [f64; N], &'a mut [f64; N]),
+    }
+
     /// The seal: only this crate implements it.
     pub trait Sealed: Sized {
         /// Returns the same floats with their format as a value, for code that is not generic.
         fn floats<const N: usize>(floats: &[Self; N]) -> Floats<'_, N>;
+
+        /// Returns the same arguments and places, with their format as a value.
+        fn pair<'a, const N: usize>(arguments: &'a [Self; N], results: &'a mut [Self; N]) -> Pair<'a, N>;
     }
 
     impl Sealed for f32 {
         fn floats<const N: usize>(floats: &[Self; N]) -> Floats<'_, N> {
             Floats::Single(floats)
+        }
+
+        fn pair<'a, const N: usize>(arguments: &'a [Self; N], results: &'a mut [Self; N]) -> Pair<'a, N> {
+            Pair::Single(arguments, results)
         }
     }
 
@@ -33,10 +49,14 @@ mod sealed {
         fn floats<const N: usize>(floats: &[Self; N]) -> Floats<'_, N> {
             Floats::Double(floats)
         }
+
+        fn pair<'a, const N: usize>(arguments: &'a [Self; N], results: &'a mut [Self; N]) -> Pair<'a, N> {
+            Pair::Double(arguments, results)
+        }
     }
 }
 #[cfg(feature = "std")]
-pub(crate) use sealed::Floats;
+pub(crate) use sealed::{Floats, Pair};
 
 /// A binary floating-point type of IEEE 754: `f32` or `f64`.
 ///

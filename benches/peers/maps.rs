@@ -16,7 +16,8 @@ const CELLS: usize = SIDE * SIDE;
 const ROUNDS: usize = 3;
 
 /// The flags of C. The vector logarithms of the C library come with the last ones; `_ZGV` begins their names.
-const FLAGS: [&[&str]; 3] = [&["-O3"], &["-O3", "-march=native"], &["-Ofast", "-march=native", WIDE]];
+pub(crate) const FLAGS: [&[&str]; 3] =
+    [&["-O3"], &["-O3", "-march=native"], &["-Ofast", "-march=native", WIDE]];
 /// GCC alone prefers vectors half as wide as the processor has.
 const WIDE: &str = if cfg!(target_arch = "x86_64") { "-mprefer-vector-width=512" } else { "-O3" };
 
@@ -103,7 +104,7 @@ impl<'a> Map<'a> {
 }
 
 /// From the lines that a peer prints.
-fn rows_of(command: &mut Command) -> impl Iterator<Item = Row> {
+pub(crate) fn rows_of(command: &mut Command) -> impl Iterator<Item = Row> {
     let row = |line: &str| {
         let mut fields = line.split('\t');
         let method = fields.next()?.to_owned();
@@ -166,14 +167,14 @@ impl Programs {
     }
 }
 
-fn compiled(compiler: &mut Command, program: PathBuf) -> Option<PathBuf> {
+pub(crate) fn compiled(compiler: &mut Command, program: PathBuf) -> Option<PathBuf> {
     let _ = fs::remove_file(&program);
     output_of(compiler);
     program.exists().then_some(program)
 }
 
 /// A multiplicative generator's upper bits.
-fn random() -> impl Iterator<Item = u64> {
+pub(crate) fn random() -> impl Iterator<Item = u64> {
     let mut state = 20261122_u64;
     std::iter::repeat_with(move || {
         state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);

@@ -80,7 +80,19 @@ impl<T: Real> Encoding for LogOdds<T> {
     }
 
     fn tally(cells: &[T]) -> Tally<T> {
-        repeated::tally::<Self>(cells)
+        let (mut recurring, mut others) = (Tally::new(), Tally::new());
+        let count = |l, count| Self::cell(l).into_iter().for_each(|cell| recurring.add_many(cell, count));
+        repeated::each(cells, count, |cells| others.merge(&Tally::from_log_odds(cells)));
+        recurring.merge(&others);
+        recurring
+    }
+
+    fn information_sum(cells: &[T]) -> InformationSum<T> {
+        let (mut recurring, mut others) = (InformationSum::new(), InformationSum::new());
+        let count = |l, count| Self::cell(l).into_iter().for_each(|cell| recurring.add_many(cell, count));
+        repeated::each(cells, count, |cells| others.merge(&InformationSum::from_log_odds(cells)));
+        recurring.merge(&others);
+        recurring
     }
 }
 

@@ -4,9 +4,7 @@
 //! So cells are counted by their value first, each in the slot of its hash. When another value needs the slot, the old
 //! one is returned with its count. Sums of cells are exact, so their order does not matter.
 
-use super::stored::Encoding;
 use crate::real::Real;
-use crate::tally::Tally;
 use alloc::{vec, vec::Vec};
 
 /// The largest number of slots: 64 KB of `f64`, 128 KB of values of 16 bytes, which fit in the second-level cache.
@@ -47,20 +45,35 @@ impl<K: Copy + PartialEq> Repeated<K> {
     }
 }
 
-/// Computes the tally of stored floats, with one evaluation for each run of equal values in a slot.
-pub(super) fn tally<E: Encoding<Stored: Real>>(cells: &[E::Stored]) -> Tally<E::Float> {
-    let mut tally = Tally::new();
-    let mut add = |(stored, count): (E::Stored, u64)| {
-        if let Some(cell) = E::cell(stored) {
-            tally.add_many(cell, count);
-        }
+/// The cells after which it is decided anew whether values recur.
+const STRETCH: usize = 1024;
+
+/// Calls `one` with values that recur and their counts, and `many` with the other cells: each cell is in one call.
+///
+/// Where more than a quarter of a stretch has lost its slots, eight stretches are taken as they are: counting costs more
+/// than it saves there.
+pub(super) fn each<T: Real>(mut cells: &[T], mut one: impl FnMut(T, u64), mut many: impl FnMut(&[T])) {
+    let mut counts = Repeated::new(cells.len() as u64, T::zero());
+    let mut single = Vec::with_capacity(STRETCH);
+    let mut sort = |value, count, single: &mut Vec<T>| {
+        if count == 1 { single.push(value) } else { one(value, count) }
     };
-    let mut counts = Repeated::new(cells.len() as u64, E::unknown());
-    for &stored in cells {
-        if let Some(lost) = counts.add(stored, stored.widen().to_bits(), 1) {
-            add(lost);
+    while !cells.is_empty() {
+        let (stretch, rest) = cells.split_at(STRETCH.min(cells.len()));
+        let mut lost = 0;
+        for &value in stretch {
+            if let Some((value, count)) = counts.add(value, value.widen().to_bits(), 1) {
+                sort(value, count, &mut single);
+                lost += 1;
+            }
         }
+        many(&single);
+        single.clear();
+        let as_they_are = if lost > stretch.len() / 4 { rest.len().min(8 * STRETCH) } else { 0 };
+        let (stretch, rest) = rest.split_at(as_they_are);
+        many(stretch);
+        cells = rest;
     }
-    counts.into_counts().for_each(add);
-    tally
+    counts.into_counts().for_each(|(value, count)| sort(value, count, &mut single));
+    many(&single);
 }

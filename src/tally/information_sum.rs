@@ -76,11 +76,8 @@ impl<T: Real> InformationSum<T> {
         let mut sums = Self::new();
         #[cfg(feature = "std")]
         let cells = blocks::each(cells, lanes::information, |block, left| {
-            // The integers of a block are its cells' sums, bit for bit: sums.md, theorem (blocks). The kernel for
-            // information alone counts every observed cell as free.
-            sums.sum.add_fixed::<T>(block.information, 1);
-            sums.unknown += block.unknown;
-            sums.observed += block.free;
+            // The integers of a block are its cells' sums, bit for bit: sums.md, theorem (blocks).
+            sums.add_block(block);
             // Where the error bound does not decide the rounding, the single cell does.
             left.for_each(|p| sums.add_occupancy(p));
         });
@@ -89,6 +86,50 @@ impl<T: Real> InformationSum<T> {
             sums.add_occupancy(p);
         }
         sums
+    }
+
+    /// Creates the sum of cells from their log-odds (nats), skipping NaN.
+    ///
+    /// The sum is that of the correctly rounded information of the cells, exactly (proved,
+    /// [`sums`](crate::book::sums)), as in [`Tally::from_log_odds`].
+    ///
+    /// ```
+    /// let cells = [0.25_f32, 0.0, -1.5, f32::INFINITY];
+    /// let information = mean_information::InformationSum::from_log_odds(&cells);
+    /// assert_eq!((information.observed(), information.unknown()), (3, 1));
+    /// assert_eq!(information.total(), 1.325829); // bits
+    /// ```
+    pub fn from_log_odds(cells: &[T]) -> Self {
+        let mut sums = Self::new();
+        #[cfg(feature = "std")]
+        let cells = blocks::each(cells, lanes::information_from_log_odds, |block, left| {
+            // The integers of a block are its cells' sums, bit for bit: sums.md, theorem (log-odds).
+            sums.add_block(block);
+            left.for_each(|l| sums.add_log_odds(l));
+        });
+        for &l in cells {
+            sums.add_log_odds(l);
+        }
+        sums
+    }
+
+    /// Adds the sum and the counts of a block of cells: the kernels for information alone count every observed cell as
+    /// free.
+    #[cfg(feature = "std")]
+    fn add_block(&mut self, block: &lanes::Block) {
+        self.sum.add_fixed::<T>(block.information, 1);
+        self.unknown += block.unknown;
+        self.observed += block.free;
+    }
+
+    /// Adds a cell from its log-odds, without the entropy that a [`Cell`] computes.
+    fn add_log_odds(&mut self, l: T) {
+        if l.is_zero() {
+            self.unknown += 1;
+        } else if !l.is_nan() {
+            self.sum.add(cell::information_from_log_odds(l));
+            self.observed += 1;
+        }
     }
 
     /// Adds a cell from its occupancy, without the entropy that a [`Cell`] computes.

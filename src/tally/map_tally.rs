@@ -103,17 +103,48 @@ impl<T: Real> Tally<T> {
         #[cfg(feature = "std")]
         let cells = blocks::each(cells, lanes::sums, |block, left| {
             // The integers of a block are its cells' sums, bit for bit: sums.md, theorem (blocks).
-            tally.entropy.add_fixed::<T>(block.entropy, 1);
-            tally.information.add_fixed::<T>(block.information, 1);
-            tally.unknown += block.unknown;
-            tally.occupied += block.occupied;
-            tally.free += block.free;
+            tally.add_block(block);
             // Where the error bound does not decide the rounding, the single cell does: the same theorem, "Rounding test".
             tally.extend(left.flat_map(Cell::from_occupancy));
         });
         // The cells after the last block, or all of them without vector kernels.
         tally.extend(cells.iter().flat_map(|&p| Cell::from_occupancy(p)));
         tally
+    }
+
+    /// Creates the tally of cells from their log-odds (nats), skipping NaN.
+    ///
+    /// Equal, bit for bit, to the tally of the single cells (Eqs. 2 to 4; proved, [`sums`](crate::book::sums), "Blocks of
+    /// log-odds"), and many times as fast (feature `std`), as [`Tally::from_occupancies`] is. The first call makes a table
+    /// of 229 KB (`f64`; `f32` has none).
+    ///
+    /// ```
+    /// use mean_information::{Tally, cell::Cell};
+    /// let cells: Vec<f64> = (0..10_000).map(|k| k as f64 / 1024.0 - 5.0).collect();
+    /// let tally = Tally::from_log_odds(&cells);
+    /// assert_eq!(tally.mean_information(), 0.5294652555959756); // bits per observed cell
+    /// assert_eq!(tally, cells.into_iter().flat_map(Cell::from_log_odds).collect());
+    /// ```
+    pub fn from_log_odds(cells: &[T]) -> Self {
+        let mut tally = Self::new();
+        #[cfg(feature = "std")]
+        let cells = blocks::each(cells, lanes::sums_from_log_odds, |block, left| {
+            // The integers of a block are its cells' sums, bit for bit: sums.md, theorem (log-odds).
+            tally.add_block(block);
+            tally.extend(left.flat_map(Cell::from_log_odds));
+        });
+        tally.extend(cells.iter().flat_map(|&l| Cell::from_log_odds(l)));
+        tally
+    }
+
+    /// Adds the sums and counts of a block of cells.
+    #[cfg(feature = "std")]
+    fn add_block(&mut self, block: &lanes::Block) {
+        self.entropy.add_fixed::<T>(block.entropy, 1);
+        self.information.add_fixed::<T>(block.information, 1);
+        self.unknown += block.unknown;
+        self.occupied += block.occupied;
+        self.free += block.free;
     }
 
     /// Adds `count` equal cells whose entropy and information are known beyond the precision of a float.

@@ -20,6 +20,9 @@ pub(crate) trait Lane: Real {
     /// Bounds the error before rounding, relative to the value that is summed up: theorem (blocks), *Error*.
     const ERROR: Self;
 
+    /// Stands for a result that is not decided; results are in `[0, 1]`.
+    const OPEN: Self;
+
     /// Returns the centre of the table's cell in which `x` in `[2^-BINADES, 1/2]` lies, and the cell's number in its
     /// half. Returns any pair, the number below [`HALF`], for other `x`.
     fn centre(x: Self) -> (Self, u32);
@@ -54,6 +57,7 @@ macro_rules! impl_lane {
             const NEAREST: i32 = $nearest;
             const TERMS: usize = $terms;
             const ERROR: Self = $error;
+            const OPEN: Self = -1.0;
 
             #[inline(always)]
             fn centre(x: Self) -> (Self, u32) {

@@ -11,14 +11,19 @@ use crate::rounded::beyond_float::Fixed;
 pub(crate) const BLOCK: usize = 256;
 
 /// Marks what became of a cell.
-mod mark {
-    /// Marks a cell in no sum: not decided, beyond the table, or no probability.
-    pub(super) const OPEN: u8 = 0;
+pub(super) mod mark {
+    /// Marks a cell that is in no sum yet: not decided, or beyond the table.
+    pub(in super::super) const OPEN: u8 = 0;
     /// Marks a cell in the sums, below 1/2; without entropies, or above.
-    pub(super) const FREE: u8 = 1;
-    pub(super) const OCCUPIED: u8 = 2;
-    pub(super) const UNKNOWN: u8 = 3;
+    pub(in super::super) const FREE: u8 = 1;
+    pub(in super::super) const OCCUPIED: u8 = 2;
+    pub(in super::super) const UNKNOWN: u8 = 3;
+    /// Marks what is no cell.
+    pub(in super::super) const NONE: u8 = 4;
 }
+
+/// The sum of the entropies in a kernel without them.
+pub(super) const NO_SUM: Fixed = Fixed { value: 0, exponent: 0 };
 
 /// Holds what a block of cells adds to a tally, except for those that are left open.
 #[derive(Debug)]
@@ -31,12 +36,12 @@ pub(crate) struct Block {
     pub(crate) free: u64,
     /// Counts the occupied cells; 0 without entropies, where they are among the free ones.
     pub(crate) occupied: u64,
-    marks: [u8; BLOCK],
+    pub(super) marks: [u8; BLOCK],
 }
 
 /// Sums numbers in `[0, 1]` in integers: units of `2^(2 - PRECISION)`, and what is left, in as many bits below.
 #[derive(Clone, Copy)]
-struct Sum<T: Lane> {
+pub(super) struct Sum<T: Lane> {
     high: T::Word,
     low: T::Word,
 }
@@ -55,13 +60,13 @@ impl<T: Lane> Sum<T> {
     }
 
     /// Creates an empty sum.
-    fn new() -> Self {
+    pub(super) fn new() -> Self {
         Self { high: T::Word::default(), low: T::Word::default() }
     }
 
     /// Adds a number in `[0, 1]`, exactly.
     #[inline(always)]
-    fn add(&mut self, x: T) {
+    pub(super) fn add(&mut self, x: T) {
         // Sums: to a multiple of `2^(2 - PRECISION)`, the ulp of 3, which the bits then count.
         let high = x + Self::high_origin();
         // Sums: what `high` has lost, from the low origin on: every step is exact.
@@ -71,7 +76,7 @@ impl<T: Lane> Sum<T> {
     }
 
     /// Returns the sum as an integer times a power of two.
-    fn fixed(self) -> Fixed {
+    pub(super) fn fixed(self) -> Fixed {
         let high = i128::from(T::ulps(self.high, Self::high_origin(), BLOCK));
         let low = i128::from(T::ulps(self.low, Self::low_origin(), BLOCK));
         // Each of the two parts has units `2^-places` of the one above it.
@@ -138,12 +143,20 @@ impl Block {
             done |= edge;
             let observed = if ENTROPY & (p > T::HALF) { mark::OCCUPIED } else { mark::FREE };
             let seen = if edge & near { mark::UNKNOWN } else { observed };
-            *mark = if done { seen } else { mark::OPEN };
+            // Domain: what is no probability has a distance that is negative or NaN.
+            let left = if x >= zero { mark::OPEN } else { mark::NONE };
+            *mark = if done { seen } else { left };
         }
+        Self::new(if ENTROPY { entropy.fixed() } else { NO_SUM }, information.fixed(), marks)
+    }
+
+    /// Creates a block from its sums and what became of its cells.
+    #[inline(always)]
+    pub(super) fn new(entropy: Fixed, information: Fixed, marks: [u8; BLOCK]) -> Self {
         let count = |of: u8| marks.iter().map(|&mark| u32::from(mark == of)).sum::<u32>().into();
         Self {
-            entropy: if ENTROPY { entropy.fixed() } else { Fixed { value: 0, exponent: 0 } },
-            information: information.fixed(),
+            entropy,
+            information,
             unknown: count(mark::UNKNOWN),
             free: count(mark::FREE),
             occupied: count(mark::OCCUPIED),
@@ -154,7 +167,7 @@ impl Block {
 
 /// Returns the distance from unknown and `true`, or twice that from certain and `false` if this is at most 1/2.
 #[inline(always)]
-fn distance<T: Lane>(p: T) -> (T, bool) {
+pub(super) fn distance<T: Lane>(p: T) -> (T, bool) {
     let rest = T::one() - p;
     // Distances: where `1 - p` is rounded, `p` is the lesser; the rest is exact by Sterbenz's lemma.
     let q = if p < rest { p } else { rest };
@@ -165,7 +178,7 @@ fn distance<T: Lane>(p: T) -> (T, bool) {
 
 /// Returns the rest of `V = head + tail` less and more the bound on its error.
 #[inline(always)]
-fn bounds<T: Lane, const FUSED: bool>(head: T, tail: T) -> (T, T) {
+pub(super) fn bounds<T: Lane, const FUSED: bool>(head: T, tail: T) -> (T, T) {
     let fused = fused::<T, FUSED>;
     // Rounding test: `V` is between; and if `head` plus either is rounded to the same float, so is `V`.
     (fused(head, -T::ERROR, tail), fused(head, T::ERROR, tail))
@@ -173,7 +186,7 @@ fn bounds<T: Lane, const FUSED: bool>(head: T, tail: T) -> (T, T) {
 
 /// Rounds `1 - V` from both sides, where `V` is between `head + below` and `head + above`.
 #[inline(always)]
-fn complements<T: Lane>(head: T, below: T, above: T) -> (T, T) {
+pub(super) fn complements<T: Lane>(head: T, below: T, above: T) -> (T, T) {
     // Rounding test of `1 - V`: `4 u^2`, for two roundings of its rest by `u^2`.
     let tiny = T::epsilon() * T::epsilon();
     // Error, sums: Dekker's fast sum; what `1 - head` has lost goes to the rest.
@@ -186,7 +199,7 @@ fn complements<T: Lane>(head: T, below: T, above: T) -> (T, T) {
 
 /// Computes `a b + c`, in one step or in two.
 #[inline(always)]
-fn fused<T: Lane, const FUSED: bool>(a: T, b: T, c: T) -> T {
+pub(super) fn fused<T: Lane, const FUSED: bool>(a: T, b: T, c: T) -> T {
     if FUSED { T::fused(a, b, c) } else { a * b + c }
 }
 

@@ -4,18 +4,21 @@
 //! instructions: about each of some thousand centres, value and slope are known to twice the precision ([`table`]), the
 //! rest is a short polynomial ([`kernel`]), and a rounding test shows whether the sum of them all has one nearest
 //! float. The few cells that fail it are left to [`CellEnclosures`](super::CellEnclosures). So every vector unit gives
-//! the same bits: the right ones. The proof is in the chapter [`sums`](crate::book::sums).
+//! the same bits: the right ones. The results are summed up, or stored one by one ([`elementwise`]); [`log_odds`] has
+//! the same for log-odds. The proofs are in the chapter [`sums`](crate::book::sums).
 
 // A call or a branch in the loop and it is no longer made into vector instructions.
 #![allow(clippy::inline_always, clippy::needless_bitwise_bool)]
 
+mod elementwise;
 mod format;
 mod kernel;
+mod log_odds;
 mod table;
 
 pub(crate) use kernel::{BLOCK, Block};
 
-use crate::real::{Floats, Real};
+use crate::real::{Floats, Pair, Real};
 use multiversion::multiversion;
 use multiversion::target::target_cfg_f;
 use std::sync::LazyLock;
@@ -37,10 +40,87 @@ pub(crate) fn information<T: Real>(cells: &[T; BLOCK]) -> Block {
     }
 }
 
-/// Defines the kernels for a format, each compiled for several vector units, of which the widest is taken that the
-/// processor has: AVX-512 from Ice Lake and Zen 4 on (`multiversion` asks for their extensions, since older ones
-/// run slower with it).
-macro_rules! dispatch {
+/// Stores the entropy of each occupancy of a block: the nearest float, NaN outside `[0, 1]`, a negative number where it is
+/// not decided.
+pub(crate) fn entropies<T: Real>(cells: &[T; BLOCK], results: &mut [T; BLOCK]) {
+    match T::pair(cells, results) {
+        Pair::Single(cells, results) => single::entropies(cells, results),
+        Pair::Double(cells, results) => double::entropies(cells, results),
+    }
+}
+
+/// Stores the information of each occupancy of a block, as [`entropies`] does.
+pub(crate) fn informations<T: Real>(cells: &[T; BLOCK], results: &mut [T; BLOCK]) {
+    match T::pair(cells, results) {
+        Pair::Single(cells, results) => single::informations(cells, results),
+        Pair::Double(cells, results) => double::informations(cells, results),
+    }
+}
+
+/// Sums entropy and information over a block of log-odds.
+pub(crate) fn sums_from_log_odds<T: Real>(cells: &[T; BLOCK]) -> Block {
+    match T::floats(cells) {
+        Floats::Single(cells) => single_log_odds::sums(cells),
+        Floats::Double(cells) => double_log_odds::sums(cells),
+    }
+}
+
+/// Sums the information over a block of log-odds, without entropies.
+pub(crate) fn information_from_log_odds<T: Real>(cells: &[T; BLOCK]) -> Block {
+    match T::floats(cells) {
+        Floats::Single(cells) => single_log_odds::information(cells),
+        Floats::Double(cells) => double_log_odds::information(cells),
+    }
+}
+
+/// Stores the entropy at each of a block's log-odds: the nearest float, NaN at NaN, a negative number where it is not
+/// decided.
+pub(crate) fn entropies_from_log_odds<T: Real>(cells: &[T; BLOCK], results: &mut [T; BLOCK]) {
+    match T::pair(cells, results) {
+        Pair::Single(cells, results) => single_log_odds::entropies(cells, results),
+        Pair::Double(cells, results) => double_log_odds::entropies(cells, results),
+    }
+}
+
+/// Stores the information at each of a block's log-odds, as [`entropies_from_log_odds`] does.
+pub(crate) fn informations_from_log_odds<T: Real>(cells: &[T; BLOCK], results: &mut [T; BLOCK]) {
+    match T::pair(cells, results) {
+        Pair::Single(cells, results) => single_log_odds::informations(cells, results),
+        Pair::Double(cells, results) => double_log_odds::informations(cells, results),
+    }
+}
+
+/// Stores the occupancy at each of a block's log-odds, as [`entropies_from_log_odds`] does.
+pub(crate) fn occupancies_from_log_odds<T: Real>(cells: &[T; BLOCK], results: &mut [T; BLOCK]) {
+    match T::pair(cells, results) {
+        Pair::Single(cells, results) => single_log_odds::occupancies(cells, results),
+        Pair::Double(cells, results) => double_log_odds::occupancies(cells, results),
+    }
+}
+
+/// Compiles a kernel for several vector units, of which the widest is taken that the processor has: AVX-512 from Ice
+/// Lake and Zen 4 on (`multiversion` asks for their extensions, since older ones run slower with it). `FUSED` is a
+/// constant that the call may use.
+macro_rules! by_target {
+    ($visibility:vis fn $name:ident($($argument:ident: $type:ty),*) $(-> $result:ty)? { $call:expr }) => {
+        #[multiversion(targets(
+            "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+bmi2+fma",
+            "x86_64+avx2+bmi2+fma"
+        ))]
+        $visibility fn $name($($argument: $type),*) $(-> $result)? {
+            if target_cfg_f!(any(target_feature = "fma", target_arch = "aarch64")) {
+                const FUSED: bool = true;
+                $call
+            } else {
+                const FUSED: bool = false;
+                $call
+            }
+        }
+    };
+}
+
+/// Defines the kernels of occupancies for a format.
+macro_rules! of_occupancies {
     ($format:ident, $float:ident) => {
         mod $format {
             use super::*;
@@ -48,31 +128,128 @@ macro_rules! dispatch {
             /// Holds the table of the format, made when first needed.
             static TABLE: LazyLock<Table<$float>> = LazyLock::new(Table::new);
 
-            dispatch!(sums, $float, true);
-            dispatch!(information, $float, false);
+            of_occupancies!(sums: sums, $float, true);
+            of_occupancies!(sums: information, $float, false);
+            of_occupancies!(results: entropies, $float, true);
+            of_occupancies!(results: informations, $float, false);
         }
     };
-    ($name:ident, $float:ident, $entropy:literal) => {
+    (sums: $name:ident, $float:ident, $entropy:literal) => {
         pub(super) fn $name(cells: &[$float; BLOCK]) -> Block {
-            #[multiversion(targets(
-                "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+bmi2+fma",
-                "x86_64+avx2+bmi2+fma"
-            ))]
-            fn by_target(table: &Table<$float>, cells: &[$float; BLOCK]) -> Block {
-                if target_cfg_f!(any(target_feature = "fma", target_arch = "aarch64")) {
-                    Block::of::<$float, true, $entropy>(table, cells)
-                } else {
-                    Block::of::<$float, false, $entropy>(table, cells)
+            by_target! {
+                fn kernel(table: &Table<$float>, cells: &[$float; BLOCK]) -> Block {
+                    Block::of::<$float, FUSED, $entropy>(table, cells)
                 }
             }
-
-            by_target(&TABLE, cells)
+            kernel(&TABLE, cells)
+        }
+    };
+    (results: $name:ident, $float:ident, $entropy:literal) => {
+        pub(super) fn $name(cells: &[$float; BLOCK], results: &mut [$float; BLOCK]) {
+            by_target! {
+                fn kernel(table: &Table<$float>, cells: &[$float; BLOCK], results: &mut [$float; BLOCK]) {
+                    elementwise::of_occupancies::<$float, FUSED, $entropy>(table, cells, results)
+                }
+            }
+            kernel(&TABLE, cells, results);
         }
     };
 }
 
-dispatch!(single, f32);
-dispatch!(double, f64);
+of_occupancies!(single, f32);
+of_occupancies!(double, f64);
+
+/// The kernels of log-odds in `f32`.
+mod single_log_odds {
+    use super::log_odds::single::{results, sums as block};
+    use super::log_odds::{Entropy, Information, Occupancy};
+    use super::{BLOCK, Block, multiversion, target_cfg_f};
+
+    by_target!(
+        pub(super) fn sums(cells: &[f32; BLOCK]) -> Block {
+            block::<FUSED, true>(cells)
+        }
+    );
+    by_target!(
+        pub(super) fn information(cells: &[f32; BLOCK]) -> Block {
+            block::<FUSED, false>(cells)
+        }
+    );
+    by_target!(
+        pub(super) fn entropies(cells: &[f32; BLOCK], places: &mut [f32; BLOCK]) {
+            results::<Entropy, FUSED>(cells, places)
+        }
+    );
+    by_target!(
+        pub(super) fn informations(cells: &[f32; BLOCK], places: &mut [f32; BLOCK]) {
+            results::<Information, FUSED>(cells, places)
+        }
+    );
+    by_target!(
+        pub(super) fn occupancies(cells: &[f32; BLOCK], places: &mut [f32; BLOCK]) {
+            results::<Occupancy, FUSED>(cells, places)
+        }
+    );
+}
+
+/// The kernels of log-odds in `f64`.
+mod double_log_odds {
+    use super::log_odds::double::{results, sums as block};
+    use super::log_odds::table::{Table, of_information, of_occupancy};
+    use super::log_odds::{Entropy, Information, Occupancy};
+    use super::{BLOCK, Block, LazyLock, multiversion, target_cfg_f};
+
+    /// Holds the table of information and entropy, made when first needed.
+    static TABLE: LazyLock<Table> = LazyLock::new(|| Table::new(of_information));
+    /// Holds the table of the smaller probability, made when first needed.
+    static OCCUPANCY: LazyLock<Table> = LazyLock::new(|| Table::new(of_occupancy));
+
+    by_target!(
+        fn both(table: &Table, cells: &[f64; BLOCK]) -> Block {
+            block::<FUSED, true>(table, cells)
+        }
+    );
+    by_target!(
+        fn one(table: &Table, cells: &[f64; BLOCK]) -> Block {
+            block::<FUSED, false>(table, cells)
+        }
+    );
+    by_target!(
+        fn entropy(table: &Table, cells: &[f64; BLOCK], places: &mut [f64; BLOCK]) {
+            results::<Entropy, FUSED>(table, cells, places)
+        }
+    );
+    by_target!(
+        fn only_information(table: &Table, cells: &[f64; BLOCK], places: &mut [f64; BLOCK]) {
+            results::<Information, FUSED>(table, cells, places)
+        }
+    );
+    by_target!(
+        fn occupancy(table: &Table, cells: &[f64; BLOCK], places: &mut [f64; BLOCK]) {
+            results::<Occupancy, FUSED>(table, cells, places)
+        }
+    );
+
+    pub(super) fn sums(cells: &[f64; BLOCK]) -> Block {
+        both(&TABLE, cells)
+    }
+
+    pub(super) fn information(cells: &[f64; BLOCK]) -> Block {
+        one(&TABLE, cells)
+    }
+
+    pub(super) fn entropies(cells: &[f64; BLOCK], places: &mut [f64; BLOCK]) {
+        entropy(&TABLE, cells, places);
+    }
+
+    pub(super) fn informations(cells: &[f64; BLOCK], places: &mut [f64; BLOCK]) {
+        only_information(&TABLE, cells, places);
+    }
+
+    pub(super) fn occupancies(cells: &[f64; BLOCK], places: &mut [f64; BLOCK]) {
+        occupancy(&OCCUPANCY, cells, places);
+    }
+}
 
 #[cfg(test)]
 mod tests;

@@ -119,7 +119,7 @@ fn around(q: f64) -> (Both, Fixed, f64) {
 }
 
 /// Returns the nearest float, and the float nearest to what is left.
-fn pair<T: Lane>(x: Fixed) -> (T, T) {
+pub(super) fn pair<T: Lane>(x: Fixed) -> (T, T) {
     let nearest: T = round_integer(x.value, x.exponent, false);
     let (m, e) = nearest.parts();
     let units = u128::from(m) << (e - x.exponent);

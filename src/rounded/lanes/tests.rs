@@ -163,13 +163,14 @@ fn check<T: Lane, const FUSED: bool, const ENTROPY: bool>(table: &Table<T>, cell
     let (mut entropy, mut information) = (ExactSum::new(), ExactSum::new());
     let mut states = Vec::new();
     let open: Vec<T> = block.open(cells).collect();
+    assert!(open.iter().all(|&p| Cell::from_occupancy(p).is_ok()), "only cells are left open");
     let mut left = open.iter().copied().peekable();
     for &p in cells {
-        // NaN is not equal to itself.
-        if left.next_if(|&x| x == p || x.is_nan() && p.is_nan()).is_some() {
+        if left.next_if(|&x| x == p).is_some() {
             continue;
         }
-        let cell = Cell::from_occupancy(p).expect("only probabilities are decided");
+        // What is no probability is passed over.
+        let Ok(cell) = Cell::from_occupancy(p) else { continue };
         entropy.add(cell.entropy());
         information.add(cell.information());
         states.push(cell.state());

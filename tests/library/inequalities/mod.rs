@@ -30,7 +30,7 @@ fn all() -> impl Iterator<Item = &'static Inequality> {
 }
 
 /// The statements that no search at points can try, and why.
-const ELSEWHERE: [(&str, &str, &str); 17] = [
+const ELSEWHERE: [(&str, &str, &str); 18] = [
     ("cell", "Theorem (no ties)", "no inequality"),
     ("evidence", "Theorem (removal)", "an equality, bit for bit: tests/library/scan/removal.rs"),
     (
@@ -56,6 +56,11 @@ const ELSEWHERE: [(&str, &str, &str); 17] = [
         "sums",
         "Theorem (blocks)",
         "an equality, bit for bit: tests/library/tally.rs, every f32 in proofs/RESULTS.md",
+    ),
+    (
+        "sums",
+        "Theorem (log-odds)",
+        "an equality, bit for bit: tests/library/elementwise.rs, proofs/exhaust.sh",
     ),
     ("rounding", "Lemma (ties)", "no inequality"),
     ("rounding", "Lemma (Horner)", "machine-checked: proofs/*.gappa"),

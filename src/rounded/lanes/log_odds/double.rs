@@ -1,0 +1,129 @@
+//! The kernels of log-odds in `f64`: Taylor's series about the centres of a table.
+//!
+//! `V(c + h) = V(c) + h V'(c) + h^2 (a_2 + a_3 h + ... + a_7 h^5)`, and a rounding test. The bounds are those of theorem
+//! (log-odds) in the chapter [`sums`](crate::book::sums), whose paragraphs the comments name.
+
+use super::table::{FIRST, LAST, SEVENTH, SIXTH, Table, centre};
+use super::{NEAR, Quantity};
+use crate::rounded::lanes::format::Lane;
+use crate::rounded::lanes::kernel::{BLOCK, Block, NO_SUM, Sum, complements, fused, mark};
+
+/// Bounds the error before rounding, relative to `V`: theorem (log-odds), *Error in `f64`*.
+pub(super) const ERROR: f64 = 1.2e-19; // 2^-62.85
+/// The least result, but for 0, that the sums hold exactly.
+const LEAST: f64 = f64::from_bits((1023 - 50) << 52); // 2^-50
+
+/// Stores a result of each cell: the nearest float, NaN at NaN, and [`Lane::OPEN`] where it is not decided.
+#[inline(always)]
+pub(in super::super) fn results<Q: Quantity, const FUSED: bool>(
+    table: &Table,
+    cells: &[f64; BLOCK],
+    results: &mut [f64; BLOCK],
+) {
+    for (&l, result) in cells.iter().zip(results) {
+        let a = l.abs();
+        let (head, tail) = value::<FUSED>(table, inside(a));
+        let (below, above) = bounds::<FUSED>(head, tail);
+        let (other, other_above) = complements(head, below, above);
+        let complement = Q::is_complement(l);
+        let lower = if complement { other } else { head + below };
+        let upper = if complement { other_above } else { head + above };
+        let decided = if (a >= FIRST) & (lower == upper) { lower } else { f64::OPEN };
+        // Domain: beyond the table `1 - V` is 1 to the last bit, and `V` is 0 at infinity.
+        let end = if a == f64::INFINITY { 0.0 } else { f64::OPEN };
+        let certain = if complement { 1.0 } else { end };
+        let known = if a > LAST { certain } else { decided };
+        let known = if a == 0.0 { Q::UNKNOWN } else { known };
+        *result = if l.is_nan() { l } else { known };
+    }
+}
+
+/// Sums information over the cells of the given log-odds, and entropies or not.
+#[inline(always)]
+pub(in super::super) fn sums<const FUSED: bool, const ENTROPY: bool>(
+    table: &Table,
+    cells: &[f64; BLOCK],
+) -> Block {
+    let mut marks = [mark::OPEN; BLOCK];
+    let (mut entropy, mut information) = (Sum::new(), Sum::new());
+    for (&l, mark) in cells.iter().zip(&mut marks) {
+        let a = l.abs();
+        let (head, tail) = value::<FUSED>(table, inside(a));
+        let (below, above) = bounds::<FUSED>(head, tail);
+        let (value, value_above) = (head + below, head + above);
+        let (other, other_above) = complements(head, below, above);
+        let near = a < NEAR;
+        let unknown = a == 0.0;
+        let beyond = a > LAST;
+        let mut done = (a >= FIRST) & !beyond;
+        let certain = if ENTROPY { a == f64::INFINITY } else { beyond };
+        if ENTROPY {
+            // Sums: a float of 53 bits from `LEAST` on is a multiple of `2^-102`.
+            done &= (value == value_above) & (other == other_above) & (value >= LEAST);
+            let h = if near { other } else { value };
+            let h = if done { h } else { 0.0 };
+            entropy.add(if unknown { 1.0 } else { h });
+        } else {
+            done &= if near { value == value_above } else { other == other_above };
+        }
+        let i = if near { value } else { other };
+        let i = if done { i } else { 0.0 };
+        information.add(if certain { 1.0 } else { i });
+        let observed = if ENTROPY & (l > 0.0) { mark::OCCUPIED } else { mark::FREE };
+        let seen = if unknown { mark::UNKNOWN } else { observed };
+        let left = if l.is_nan() { mark::NONE } else { mark::OPEN };
+        *mark = if done | unknown | certain { seen } else { left };
+    }
+    Block::new(if ENTROPY { entropy.fixed() } else { NO_SUM }, information.fixed(), marks)
+}
+
+/// Returns a magnitude of the table: the nearest one, any for NaN.
+#[inline(always)]
+fn inside(a: f64) -> f64 {
+    let a = if a > FIRST { a } else { FIRST };
+    if a < LAST { a } else { LAST }
+}
+
+/// Returns the rest of `V = head + tail` less and more the bound on its error.
+#[inline(always)]
+fn bounds<const FUSED: bool>(head: f64, tail: f64) -> (f64, f64) {
+    let fused = fused::<f64, FUSED>;
+    // Rounding test: theorem (blocks).
+    (fused(head, -ERROR, tail), fused(head, ERROR, tail))
+}
+
+/// Computes `V` at the magnitude `x`, as a float and a rest of at most `2^-13.9` of it.
+#[inline(always)]
+pub(super) fn value<const FUSED: bool>(table: &Table, x: f64) -> (f64, f64) {
+    let fused = fused::<f64, FUSED>;
+    let (c, row) = centre(x);
+    let (value, slope) = (table.value[row], table.slope[row]);
+    let (value_low, slope_low) = f64::unpack(table.low[row]);
+    let (a2, a3) = (table.second[row], table.third[row]);
+    // Series: the seventh and the sixth are noise in the last bits of the fourth and the fifth.
+    let (a4, a7) = unpack(table.fourth[row], SEVENTH);
+    let (a5, a6) = unpack(table.fifth[row], SIXTH);
+    // Series: exact, since `x` and `c` agree in their leading bits.
+    let h = x - c;
+    let hh = h * h;
+    let high = fused(hh, fused(h, a7, a6), fused(h, a5, a4));
+    let series = fused(hh, high, fused(h, a3, a2));
+    // Slope: the product of slope and `h` and what it loses.
+    let (first, second) = if FUSED {
+        let first = slope * h;
+        (first, f64::fused(slope, h, -first))
+    } else {
+        (slope.head() * h, (slope - slope.head()) * h)
+    };
+    // Sums: Dekker's fast sum; what `head` has lost goes to the rest.
+    let head = value + first;
+    let lost = (value - head) + first;
+    let products = fused(hh, series, fused(slope_low, h, second));
+    (head, products + (lost + value_low))
+}
+
+/// Returns the floats of a word: all of it, and its last bits.
+#[inline(always)]
+pub(super) fn unpack(word: u64, bits: u32) -> (f64, f64) {
+    (f64::from_bits(word), f64::from_bits(word << (u64::BITS - bits)))
+}

@@ -148,8 +148,12 @@ unsafe fn scatter<N: Number>(output: &[N::Float], to: *mut c_char, step: npy_int
     }
 }
 
-/// Leaves the floating-point exception "invalid value" where a number lies outside the domain, as NumPy's own functions do.
+/// Leaves the floating-point exceptions as NumPy's own functions do: "invalid value" where a number lies outside the domain,
+/// and none by which results were computed, as comparing the NaN of an unused place of a block is.
 fn report(is_invalid: bool) {
+    // SAFETY: NumPy's function takes nothing and clears the state of this thread's floating-point unit. The token stands for
+    // looking the function up, which `add_to` did before there was a ufunc: it is read here, not written.
+    unsafe { PY_UFUNC_API.PyUFunc_clearfperr(Python::assume_attached()) };
     if is_invalid {
         let infinite = black_box(f64::INFINITY);
         black_box(infinite - infinite);
@@ -196,6 +200,8 @@ const LOOPS: usize = REFUSED.len() + COMPUTED.len();
 /// Creates the ufunc and adds it to the module.
 pub(super) fn add_to<F: Elementwise>(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let py = module.py();
+    // SAFETY: NumPy's function takes nothing. Called here once, so that it is found when loops call it.
+    unsafe { PY_UFUNC_API.PyUFunc_clearfperr(py) };
     let computed: [PyUFuncGenericFunction; 3] =
         [Some(compute::<F, Half>), Some(compute::<F, f32>), Some(compute::<F, f64>)];
     let mut functions = [Some(refuse::<F> as unsafe extern "C" fn(_, _, _, _)); LOOPS];

@@ -7,6 +7,7 @@ here=$PWD
 export CARGO_TARGET_DIR=${CARGO_TARGET_DIR:-$here/../../target}
 environment=${1:-$CARGO_TARGET_DIR/wheel}
 
+cargo fmt --check
 python3 -m venv --clear "$environment"
 environment=$(cd "$environment" && pwd)
 export PATH="$environment/bin:$PATH" PIP_DISABLE_PIP_VERSION_CHECK=1

@@ -46,6 +46,7 @@ chapters! {
     porting;
     files;
     tally_format;
+    fleets;
     paper;
     architecture;
 }

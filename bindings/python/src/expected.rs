@@ -1,0 +1,95 @@
+//! The expected map of a particle filter's hypotheses.
+
+use crate::encodings::{Array, with_encoding};
+use crate::errors::{out_of_memory, refused};
+use crate::tally::{Format, PyTally};
+use mean_information::Real;
+use mean_information::expected::Hypotheses;
+use mean_information::map::{Encoding, Geometry, Grid};
+use numpy::PyArrayMethods;
+use numpy::ndarray::ArrayView2;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+/// An expected map: the weighted mean of a particle filter's maps, cell by cell.
+///
+/// Attributes
+/// ----------
+/// probabilities : ndarray
+///     The mean occupancies, each rounded once.
+/// tally : Tally
+///     The sums over the exact means; `tally.mean_information` is the EMMI.
+/// mean_of_particles : float
+///     The weighted mean of the particles' own mean information.
+#[pyclass(frozen, get_all, name = "ExpectedMap", module = "mean_information")]
+pub(crate) struct PyExpectedMap {
+    probabilities: Py<PyAny>,
+    tally: Py<PyTally>,
+    mean_of_particles: f64,
+}
+
+#[pymethods]
+impl PyExpectedMap {
+    /// Mean information of the expected map, EMMI, in bits per observed cell.
+    #[getter]
+    fn mean_information(&self) -> f64 {
+        self.tally.get().mean_information()
+    }
+
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        let shape = self.probabilities.bind(py).getattr("shape")?;
+        let (emmi, mean) = (self.mean_information(), self.mean_of_particles);
+        Ok(format!("<ExpectedMap of shape {shape}: EMMI {emmi} bits per observed cell; particles {mean}>"))
+    }
+}
+
+/// Compute the expected map of particles, which `_expected.py` has prepared.
+#[pyfunction]
+pub(crate) fn expected_map(
+    py: Python<'_>,
+    particles: Vec<Bound<'_, PyAny>>,
+    weights: Vec<f64>,
+    encoding: &str,
+) -> PyResult<PyExpectedMap> {
+    let Some(first) = particles.first() else {
+        return Err(PyValueError::new_err("number of particles is 0, allowed is 1 or more"));
+    };
+    with_encoding!(Array::new(first, encoding)?, _first, Encoding_ => {
+        let mut maps = Vec::with_capacity(particles.len());
+        for (index, particle) in particles.iter().enumerate() {
+            let array = particle.extract::<numpy::PyReadonlyArray2<'_, <Encoding_ as Encoding>::Stored>>()?;
+            maps.push(grid::<Encoding_>(index, array.as_array())?);
+        }
+        expected::<Encoding_>(py, &maps, &weights)
+    })
+}
+
+/// Computes the expected map of grids.
+fn expected<E: Encoding<Float: Format>>(
+    py: Python<'_>,
+    maps: &[Grid<E>],
+    weights: &[f64],
+) -> PyResult<PyExpectedMap> {
+    let computed = py.detach(|| {
+        let hypotheses = Hypotheses::new(maps, weights)?;
+        Ok::<_, mean_information::Error>((hypotheses.expected_map()?, hypotheses.mean_of_mean_information()))
+    });
+    let (map, mean) = computed.map_err(refused)?;
+    let shape = [map.grid().height(), map.grid().width()];
+    let probabilities = numpy::PyArray1::from_slice(py, map.grid().cells()).reshape(shape)?;
+    Ok(PyExpectedMap {
+        probabilities: probabilities.into_any().unbind(),
+        tally: Py::new(py, PyTally::from(map.tally().clone()))?,
+        mean_of_particles: mean.widen(),
+    })
+}
+
+/// Copies the map of a particle from an array.
+fn grid<E: Encoding>(particle: usize, cells: ArrayView2<'_, E::Stored>) -> PyResult<Grid<E>> {
+    let (height, width) = cells.dim();
+    let mut copied = Vec::new();
+    copied.try_reserve_exact(cells.len()).map_err(|_| out_of_memory())?;
+    copied.extend(cells.iter());
+    let map = Geometry::new(1.0, [0.0; 2]).and_then(|geometry| Grid::new(width, height, geometry, copied));
+    map.map_err(|error| PyValueError::new_err(format!("particle {particle}: {error}")))
+}

@@ -1,0 +1,225 @@
+//! Maps from range scans.
+
+use crate::errors::refused;
+use crate::sensors::{FunctionReading, PySteppedSensor, Sensor};
+use crate::tally::PyTally;
+use mean_information::Error;
+use mean_information::scan::{Beam, Pose, Scan, ScanMap};
+use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+/// A map that range scans are inserted into, and removed from again, to the bits of a map that never had them.
+///
+/// Cells are squares of one side whose corners lie at multiples of it. The map grows with the scans; each cell holds the sum
+/// of the log-odds of the scans that crossed it, exactly, so that their order changes no bit.
+///
+/// Parameters
+/// ----------
+/// resolution : float
+///     The side of a cell, in metres.
+/// sensor : GaussianSensor, SteppedSensor or object, optional
+///     The inverse sensor model. Any object with the methods ``occupancy(distance, range)``, the occupancy of a point at that
+///     distance, and ``reach(range)``, the distance beyond which it is 1/2, both in metres, will do; by default
+///     ``SteppedSensor(resolution, 0.4, 0.7)``, as of the command.
+/// reading_limit : float
+///     The log-odds in nats to which one reading of a cell is limited.
+/// agreement : bool
+///     Whether the map keeps what `agreement` needs: twice the memory.
+///
+/// Examples
+/// --------
+/// >>> import mean_information as mi
+/// >>> scans = mi.ScanMap(0.25, sensor=mi.GaussianSensor(0.1))
+/// >>> scans.insert((0.13, 0.27, 0.0), [0.0, 1.5], [1.5, float("inf")], max_range=2.0)
+/// >>> tally = scans.tally()
+/// >>> tally.free, tally.occupied
+/// (14, 1)
+/// >>> scans.remove((0.13, 0.27, 0.0), [0.0, 1.5], [1.5, float("inf")], max_range=2.0)
+/// >>> scans.scans
+/// 0
+#[pyclass(name = "ScanMap", module = "mean_information")]
+pub(crate) struct PyScanMap {
+    map: ScanMap<f64>,
+    #[pyo3(get)]
+    sensor: Py<PyAny>,
+}
+
+impl PyScanMap {
+    /// Applies `change` to the map with a scan and the model of its readings.
+    fn change(&mut self, py: Python<'_>, scan: &Scan<f64>, remove: bool) -> PyResult<()> {
+        let sensor = Sensor::new(self.sensor.bind(py))?;
+        let map = &mut self.map;
+        /// Inserts or removes.
+        macro_rules! apply {
+            ($model:expr) => {
+                if remove { map.remove(scan, $model) } else { map.insert(scan, $model) }
+            };
+        }
+        match sensor {
+            Sensor::Named(model) => py.detach(|| apply!(|range| model.of_range(range))).map_err(refused),
+            Sensor::Function(function) => {
+                let model = |range| Ok::<_, Error>(FunctionReading::new(&function, range));
+                apply!(model).map_err(|error| function.raised(error))
+            }
+        }
+    }
+}
+
+/// Takes a scan of Python: beams whose range is NaN are left out, those at the greatest range and beyond did not return.
+fn scan(
+    pose: (f64, f64, f64),
+    bearings: &PyReadonlyArray1<'_, f64>,
+    ranges: &PyReadonlyArray1<'_, f64>,
+    max_range: f64,
+) -> PyResult<Option<Scan<f64>>> {
+    let (bearings, ranges) = (bearings.as_array(), ranges.as_array());
+    if bearings.len() != ranges.len() {
+        let (bearings, ranges) = (bearings.len(), ranges.len());
+        return Err(PyValueError::new_err(format!("{bearings} bearings were given for {ranges} ranges")));
+    }
+    let pose = Pose::new(pose.0, pose.1, pose.2).map_err(refused)?;
+    let beams = bearings.iter().zip(ranges).filter(|(_, range)| !range.is_nan());
+    let beams = beams.map(|(&bearing, &range)| Beam { bearing, range: (range < max_range).then_some(range) });
+    let beams: Vec<_> = beams.collect();
+    if beams.is_empty() { Ok(None) } else { Scan::new(pose, max_range, beams).map(Some).map_err(refused) }
+}
+
+#[pymethods]
+impl PyScanMap {
+    #[new]
+    #[pyo3(signature = (resolution, *, sensor=None, reading_limit=3.5, agreement=false))]
+    fn new(
+        py: Python<'_>,
+        resolution: f64,
+        sensor: Option<Bound<'_, PyAny>>,
+        reading_limit: f64,
+        agreement: bool,
+    ) -> PyResult<Self> {
+        let map = ScanMap::new(resolution).and_then(|map| map.with_reading_limit(reading_limit));
+        let map = if agreement { map.and_then(ScanMap::with_agreement) } else { map }.map_err(refused)?;
+        let sensor = match sensor {
+            Some(sensor) => sensor.unbind(),
+            None => Py::new(py, PySteppedSensor::new(resolution, 0.4, 0.7)?)?.into_any(),
+        };
+        Sensor::new(sensor.bind(py))?;
+        Ok(Self { map, sensor })
+    }
+
+    /// Insert a scan: along each beam, as far as the model of its range reaches, the cells that it crosses.
+    ///
+    /// Parameters
+    /// ----------
+    /// pose : tuple of float
+    ///     x and y of the sensor in metres, and its heading in radians, counter-clockwise from the x axis.
+    /// bearings : array_like of float, shape (n,)
+    ///     The directions of the beams from the heading, in radians, counter-clockwise.
+    /// ranges : array_like of float, shape (n,)
+    ///     What came back, in metres. NaN: the beam is left out. `max_range` and more: nothing came back, the space up to
+    ///     there is free.
+    /// max_range : float
+    ///     The greatest range of the sensor, in metres.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     If a number is out of its range, the first of which is named; then the map has not changed.
+    /// MemoryError
+    ///     If the map would grow beyond 2**26 cells; then it has not changed.
+    #[pyo3(signature = (pose, bearings, ranges, *, max_range))]
+    fn insert(
+        &mut self,
+        py: Python<'_>,
+        pose: (f64, f64, f64),
+        bearings: &Bound<'_, PyAny>,
+        ranges: &Bound<'_, PyAny>,
+        max_range: f64,
+    ) -> PyResult<()> {
+        match scan(pose, &floats(bearings)?, &floats(ranges)?, max_range)? {
+            Some(scan) => self.change(py, &scan, false),
+            None => Ok(()),
+        }
+    }
+
+    /// Remove a scan that was inserted: the exact inverse of `insert` with the same arguments.
+    ///
+    /// Parameters
+    /// ----------
+    /// pose, bearings, ranges, max_range
+    ///     As of `insert`.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     If the map does not hold the scan; then the map has not changed.
+    #[pyo3(signature = (pose, bearings, ranges, *, max_range))]
+    fn remove(
+        &mut self,
+        py: Python<'_>,
+        pose: (f64, f64, f64),
+        bearings: &Bound<'_, PyAny>,
+        ranges: &Bound<'_, PyAny>,
+        max_range: f64,
+    ) -> PyResult<()> {
+        match scan(pose, &floats(bearings)?, &floats(ranges)?, max_range)? {
+            Some(scan) => self.change(py, &scan, true),
+            None => Ok(()),
+        }
+    }
+
+    /// Measure the cells of the rectangle that scans have crossed.
+    ///
+    /// Returns
+    /// -------
+    /// Tally
+    fn tally(&self, py: Python<'_>) -> PyTally {
+        py.detach(|| self.map.tally()).into()
+    }
+
+    /// Return the occupancies of the rectangle that scans have crossed, 1/2 where nothing is known.
+    ///
+    /// Returns
+    /// -------
+    /// ndarray of float64, shape (rows, columns)
+    ///     Row 0 is the lowest, column 0 the leftmost; its lower left corner is at `origin`.
+    fn probabilities<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let grid = py.detach(|| self.map.probabilities()).map_err(refused)?;
+        let cells = PyArray1::from_slice(py, grid.cells()).reshape([grid.height(), grid.width()])?;
+        Ok(cells.into_any())
+    }
+
+    /// Lower left corner of the rectangle that scans have crossed: x and y in metres.
+    #[getter]
+    fn origin(&self) -> PyResult<(f64, f64)> {
+        self.map.geometry().map(|geometry| geometry.origin().into()).map_err(refused)
+    }
+
+    /// Agreement of the scans, in [0, 1]: the part of the readings' log-odds that do not contradict one another; None if the
+    /// map does not keep it.
+    #[getter]
+    fn agreement(&self) -> Option<f64> {
+        self.map.agreement()
+    }
+
+    /// Side of a cell, in metres.
+    #[getter]
+    fn resolution(&self) -> f64 {
+        self.map.resolution()
+    }
+
+    /// Number of scans that the map holds.
+    #[getter]
+    fn scans(&self) -> u64 {
+        self.map.scans()
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<ScanMap of {} scans, cells of {} m>", self.map.scans(), self.map.resolution())
+    }
+}
+
+/// Takes a list of numbers as floats, as NumPy does.
+fn floats<'py>(list: &Bound<'py, PyAny>) -> PyResult<PyReadonlyArray1<'py, f64>> {
+    let array = list.py().import("numpy")?.call_method1("asarray", (list, "float64"))?;
+    array.extract().map_err(|_| PyValueError::new_err("bearings and ranges are lists of one dimension"))
+}

@@ -1,0 +1,163 @@
+"""Expected maps, maps of scans, limits."""
+
+import pickle
+
+import mean_information as mi
+import numpy as np
+import pytest
+
+
+def test_an_expected_map_is_the_mean():
+    random = np.random.default_rng(11)
+    particles = random.random((7, 5, 6))
+    weights = random.random(7)
+    expected = mi.expected_map(particles, weights)
+    mean = np.average(particles, axis=0, weights=weights)
+    np.testing.assert_allclose(expected.probabilities, mean, rtol=4e-16)
+    assert expected.tally.cells == 30 and expected.mean_information == expected.tally.mean_information
+    assert expected.mean_information == pytest.approx(mi.mean_information(mean), rel=1e-14)
+    own = mi.mean_information(particles, axis=(1, 2))
+    assert expected.mean_of_particles == pytest.approx(np.average(own, weights=weights), rel=1e-15)
+    # Neither order nor scale of the weights changes a bit.
+    again = mi.expected_map(list(particles[::-1]), weights[::-1] * 8)
+    assert again.tally == expected.tally
+    np.testing.assert_array_equal(again.probabilities, expected.probabilities)
+    assert "EMMI" in repr(expected)
+
+
+def test_expected_maps_of_every_encoding():
+    percent = np.array([[[-1, 0]], [[100, 0]]], np.int8)
+    expected = mi.expected_map(percent, [6, 2], encoding="percent")
+    assert expected.probabilities.tolist() == [[0.625, 0.0]]
+    single = mi.expected_map(np.float32([[[0.25]], [[0.5]]]))
+    assert single.probabilities.dtype == np.float32 and single.tally.dtype == np.float32
+    assert mi.expected_map([[[2.0]]], encoding="log-odds").tally.information == pytest.approx(0.4729346589968384, rel=1e-15)
+    assert mi.expected_map([np.array([[-32]], np.int8)], encoding="mrpt").tally.occupied == 1
+
+
+def test_bad_particles_are_refused():
+    good = np.full((2, 3, 4), 0.25)
+    bad = good.copy()
+    bad[1, 2, 0] = np.nan
+    with pytest.raises(ValueError, match="particle 1: cell at row 2, column 0 is NaN"):
+        mi.expected_map(bad)
+    for weights, words in [
+        ([1.0], "number of weights is 1, allowed is 2"),
+        ([1.0, -1.0], "weight 1 is -1"),
+        ([0.0, 0.0], "weight"),
+        ([np.nan, 1.0], "weight 0 is NaN"),
+        (np.ones((2, 1)), "weights are a list"),
+    ]:
+        with pytest.raises(ValueError, match=words):
+            mi.expected_map(good, weights)
+    with pytest.raises(ValueError, match="number of particles is 0"):
+        mi.expected_map([])
+    with pytest.raises(ValueError, match=r"one shape"):
+        mi.expected_map([[[0.5]], [[0.5, 0.5]]])
+    with pytest.raises(TypeError, match="one type"):
+        mi.expected_map([np.float32([[0.5]]), np.array([[0.5]])])
+
+
+def test_limits():
+    limit = mi.limit(2.0, 0.2)
+    assert (limit.value, limit.status, limit.evaluations) == (0.7893368880256514, "converged", 0)
+    assert limit.lower < limit.value < limit.upper
+    assert limit == mi.limit(2.0, 0.2) and limit != mi.limit(2.0, 0.25)
+    area = mi.limit(2.0, 0.2, weight="area").value
+    for method in ("adaptive", "rigorous"):
+        other = mi.limit(2.0, 0.2, weight="area", method=method)
+        assert other.lower <= area <= other.upper and other.evaluations > 0
+    with pytest.raises(ValueError, match="sigma is 0, allowed is positive"):
+        mi.limit(2.0, 0.0)
+    with pytest.raises(ValueError, match="weight is 'x', allowed are"):
+        mi.limit(2.0, 0.2, weight="x")
+    with pytest.raises(ValueError, match="method is 'x', allowed are"):
+        mi.limit(2.0, 0.2, method="x")
+
+
+def drive(scans, poses, remove=False):
+    bearings = np.linspace(-1.5, 1.5, 91)
+    for x, y, heading in poses:
+        ranges = 2.0 + 0.5 * np.sin(3 * (bearings + heading)) + 0.1 * x
+        (scans.remove if remove else scans.insert)((x, y, heading), bearings, ranges, max_range=4.0)
+
+
+def test_scans_are_inserted_and_removed():
+    poses = [(0.1 * k, -0.05 * k, 0.2 * k) for k in range(12)]
+    forwards, backwards = mi.ScanMap(0.1, agreement=True), mi.ScanMap(0.1, agreement=True)
+    drive(forwards, poses)
+    drive(backwards, poses[::-1])
+    assert forwards.tally() == backwards.tally() and forwards.scans == 12
+    probabilities = forwards.probabilities()
+    np.testing.assert_array_equal(probabilities, backwards.probabilities())
+    assert mi.tally(probabilities).observed == forwards.tally().observed
+    x, y = forwards.origin
+    assert x < 0 and y < 0 and round(x / 0.1) * 0.1 == x
+    assert 0 < forwards.agreement <= 1 and mi.ScanMap(0.1).agreement is None
+    drive(forwards, poses[3:], remove=True)
+    few = mi.ScanMap(0.1)
+    drive(few, poses[:3])
+    assert forwards.tally() == few.tally()
+    with pytest.raises(ValueError, match="number of times that the map holds the scan"):
+        drive(forwards, poses[5:6], remove=True)
+    assert forwards.tally() == few.tally()
+
+
+class Own:
+    """Steps, in Python."""
+
+    def occupancy(self, distance, range):
+        return 0.5 if distance > self.reach(range) else 0.875 if distance >= range - 0.125 else 0.25
+
+    def reach(self, range):
+        return range + 0.125
+
+
+def test_sensors():
+    own, named = mi.ScanMap(0.25, sensor=Own()), mi.ScanMap(0.25, sensor=mi.SteppedSensor(0.25, 0.25, 0.875))
+    drive(own, [(0.13, 0.12, 0.5)])
+    drive(named, [(0.13, 0.12, 0.5)])
+    assert own.tally() == named.tally()
+
+    class Broken(Own):
+        def occupancy(self, distance, range):
+            raise LookupError("no such place")
+
+    broken = mi.ScanMap(0.25, sensor=Broken())
+    with pytest.raises(LookupError, match="no such place"):
+        drive(broken, [(0.0, 0.0, 0.0)])
+    assert broken.scans == 0 and broken.tally().cells == 0
+
+    class Nonsense(Own):
+        def occupancy(self, distance, range):
+            return 2.0
+
+    with pytest.raises(ValueError, match="beam 0"):
+        drive(mi.ScanMap(0.25, sensor=Nonsense()), [(0.0, 0.0, 0.0)])
+    with pytest.raises(TypeError, match="sensor is int, allowed are GaussianSensor"):
+        mi.ScanMap(0.25, sensor=7)
+    for sensor in (mi.GaussianSensor(0.1), mi.SteppedSensor(0.2, free=0.3, occupied=0.8)):
+        assert pickle.loads(pickle.dumps(sensor)) == sensor
+        assert eval(repr(sensor), vars(mi)) == sensor
+    assert mi.ScanMap(0.25).sensor == mi.SteppedSensor(0.25, 0.4, 0.7)
+    with pytest.raises(ValueError, match="sigma is -1"):
+        mi.GaussianSensor(-1.0)
+
+
+def test_bad_scans_are_refused():
+    scans = mi.ScanMap(0.25)
+    for arguments, words in [
+        (((0.0, 0.0, np.nan), [0.0], [1.0]), "theta of the pose is NaN"),
+        (((0.0, 0.0, 0.0), [np.inf], [1.0]), "bearing of beam 0 is inf"),
+        (((0.0, 0.0, 0.0), [0.0], [-1.0]), "range of beam 0 is -1"),
+        (((0.0, 0.0, 0.0), [0.0, 1.0], [1.0]), "2 bearings were given for 1 ranges"),
+        (((0.0, 0.0, 0.0), [[0.0]], [[1.0]]), "one dimension"),
+    ]:
+        with pytest.raises(ValueError, match=words):
+            scans.insert(*arguments, max_range=4.0)
+    with pytest.raises(MemoryError, match="allowed are 67108864"):
+        scans.insert((0.0, 0.0, 0.0), [0.0, 1.5, 3.0, -1.5], [1e5] * 4, max_range=2e5)
+    scans.insert((0.0, 0.0, 0.0), [0.0], [np.nan], max_range=4.0)  # says nothing
+    assert scans.scans == 0
+    with pytest.raises(ValueError, match="resolution is 0"):
+        mi.ScanMap(0.0)

@@ -1,0 +1,35 @@
+"""Examples of docstrings run, and every public name has one in NumPy's style."""
+
+import doctest
+import inspect
+
+import mean_information as mi
+import numpy as np
+import pytest
+
+PUBLIC = {name: getattr(mi, name) for name in mi.__all__ if name not in ("Encoding", "__version__")}
+METHODS = {
+    f"{name}.{method}": getattr(kind, method)
+    for name, kind in PUBLIC.items()
+    if inspect.isclass(kind)
+    for method in dir(kind)
+    if not method.startswith("_") and callable(getattr(kind, method))
+}
+
+
+@pytest.mark.parametrize("name", [*PUBLIC, *METHODS])
+def test_examples(name):
+    item = {**PUBLIC, **METHODS}[name]
+    document = inspect.getdoc(item)
+    assert document, name
+    test = doctest.DocTestParser().get_doctest(document, {}, name, None, 0)
+    results = doctest.DocTestRunner(optionflags=doctest.NORMALIZE_WHITESPACE).run(test)
+    assert results.failed == 0
+    if callable(item) and not inspect.isclass(item):
+        is_shown = isinstance(item, np.ufunc) or name in ("tally", "mean_information", "expected_map", "limit")
+        assert "Returns\n-------" in document or "Raises\n------" in document, name
+        assert results.attempted > 0 or not is_shown, name
+
+
+def test_the_module_says_how_to_begin():
+    assert doctest.testmod(mi).failed == 0 and ">>>" in mi.__doc__

@@ -2,7 +2,7 @@
 import { short, svg } from "./parts.mjs";
 
 const [WIDTH, HEIGHT] = [640, 320];
-const FRAME = { left: 58, right: 16, top: 16, bottom: 50 };
+const FRAME = { left: 76, right: 34, top: 18, bottom: 56 };
 
 /** Returns round numbers within a range, at most about `most`. */
 function ticks(from, to, most) {
@@ -37,12 +37,12 @@ export function chart({ title, xLabel, yLabel, curves, lines = [], y: [low, high
   const marked = doubles ? [...new Set(xs)].filter((_, k) => k % every === 0) : ticks(first, last, 8);
   for (const x of marked) {
     line(across(x), HEIGHT - FRAME.bottom, across(x), HEIGHT - FRAME.bottom + 5, "axis");
-    text(across(x), HEIGHT - FRAME.bottom + 19, short(x), { "text-anchor": "middle" });
+    text(across(x), HEIGHT - FRAME.bottom + 22, short(x), { "text-anchor": "middle" });
   }
   line(FRAME.left, HEIGHT - FRAME.bottom, WIDTH - FRAME.right, HEIGHT - FRAME.bottom, "axis");
   text((FRAME.left + WIDTH - FRAME.right) / 2, HEIGHT - 10, xLabel, { "text-anchor": "middle" });
   const middle = (FRAME.top + HEIGHT - FRAME.bottom) / 2;
-  text(14, middle, yLabel, { "text-anchor": "middle", transform: `rotate(-90 14 ${middle})` });
+  text(18, middle, yLabel, { "text-anchor": "middle", transform: `rotate(-90 18 ${middle})` });
   for (const { y, kind } of lines) {
     line(FRAME.left, up(y), WIDTH - FRAME.right, up(y), `level ${kind}`);
   }

@@ -209,6 +209,7 @@ export class Maps {
       if (this.#opened.cells && this.#opened.width && this.#opened.height) {
         const { width, height } = this.#opened;
         element("picture").hidden = false;
+        element("save-png").hidden = false;
         element("heat-map").style.setProperty("--ratio", Math.min(3, Math.max(0.6, width / height)));
         this.#heatMap.show(width, height);
       }
@@ -225,6 +226,7 @@ export class Maps {
     this.#opened = null;
     this.#heatMap.hide();
     element("picture").hidden = true;
+    element("save-png").hidden = true;
     element("sweep").hidden = true;
     element("summary").hidden = true;
     element("no-picture").textContent = "";
@@ -283,7 +285,7 @@ export class Maps {
 
   async #exportPicture() {
     const row = this.#rows.get(this.#chosen)[0];
-    const titles = [row.map, `mean information: ${fixed(row.mean_information, 6)} bits per observed cell`];
+    const titles = [row.map, `mean information: ${fixed(row.mean_information, 6)} bits per observed cell${row.meaningful ? "" : " (not meaningful)"}`];
     save(`${row.map}.png`, await drawnPicture(this.#heatMap.picture(), titles, await this.#client.ask({ ask: "colours" })));
   }
 

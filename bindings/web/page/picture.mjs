@@ -5,8 +5,10 @@ const MARGIN = 24;
 /** Returns a PNG of a canvas under two lines of title, with the scale of these colours to its right. */
 export function drawnPicture(map, [title, subtitle], colours) {
   const canvas = document.createElement("canvas");
-  [canvas.width, canvas.height] = [map.width + 190, Math.max(map.height, 320) + 90];
   const context = canvas.getContext("2d");
+  context.font = "bold 20px sans-serif";
+  const titles = Math.max(...[title, subtitle].map((text) => context.measureText(text).width));
+  [canvas.width, canvas.height] = [Math.max(map.width + 190, titles + 2 * MARGIN), Math.max(map.height, 320) + 90];
   context.fillStyle = "#fff";
   context.fillRect(0, 0, canvas.width, canvas.height);
   context.fillStyle = "#000";

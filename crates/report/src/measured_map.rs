@@ -10,7 +10,7 @@ use mean_information_files::bags::{self, AnyMapTopic, MapTopic, any_map_topic, l
 use mean_information_files::{Contents, Disk, Map, Options, Source, octree, read_map_contents_from};
 use std::path::{Path, PathBuf};
 
-/// How a map is read and measured.
+/// The way a map is read and measured.
 #[derive(Clone, Debug, Default)]
 pub struct Reading {
     /// The options of the readers.
@@ -32,7 +32,7 @@ pub struct MeasuredMap {
     pub resolution: Option<f64>,
     /// The measures.
     pub measures: Measures,
-    /// Whether its cells lie in one rectangle: submaps together do not.
+    /// True if its cells lie in one rectangle: submaps together do not.
     pub is_rectangle: bool,
     /// Leaves and volume, if the map is an octree.
     pub tree: Option<MeasuredTree>,

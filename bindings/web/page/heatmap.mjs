@@ -1,0 +1,241 @@
+// A grid of cells on a canvas: squares of colour from the worker, moved and enlarged by mouse, touch and keys.
+import { latest, make } from "./parts.mjs";
+
+/** A cell never gets more pixels than this. */
+const LARGEST = 64;
+
+export class HeatMap {
+  #canvas;
+  #client;
+  #of;
+  #told;
+  #size = [0, 0];
+  /** The cell at the middle of the canvas, from the lower left, and pixels of the page per cell. */
+  #view = { x: 0, y: 0, zoom: 1 };
+  /** True while all of the grid is shown, and is to be shown when the canvas changes. */
+  #isFitted = true;
+  #picture = null;
+  #cursor = null;
+  #draw = latest(() => this.#fetch());
+  #look = latest((column, row) => this.#tell(column, row));
+
+  /** Draws the grid `of` ("map" or "room") on a canvas; `told(cell, column, row)` hears of the cell under the pointer. */
+  constructor(canvas, client, of, told) {
+    [this.#canvas, this.#client, this.#of, this.#told] = [canvas, client, of, told];
+    this.#listen();
+    new ResizeObserver(() => this.#size[0] && this.#resized()).observe(canvas);
+  }
+
+  /** Shows another grid, all of it. */
+  show(width, height) {
+    this.#size = [width, height];
+    this.#cursor = null;
+    this.#picture = null;
+    this.#resized();
+    this.fit();
+  }
+
+  hide() {
+    this.#size = [0, 0];
+    this.#picture = null;
+  }
+
+  fit() {
+    const [width, height] = this.#size;
+    this.#view = { x: width / 2, y: height / 2, zoom: this.#fitting() };
+    this.#isFitted = true;
+    this.#paint();
+    this.#draw();
+  }
+
+  zoom(by, at = null) {
+    const { x, y, zoom } = this.#view;
+    const next = Math.min(LARGEST, Math.max(this.#fitting(), zoom * by));
+    const anchor = at ?? [x, y];
+    const kept = 1 - zoom / next;
+    this.#isFitted = next === this.#fitting();
+    this.#view = { x: x + (anchor[0] - x) * kept, y: y + (anchor[1] - y) * kept, zoom: next };
+    this.#moved();
+  }
+
+  /** Draws the picture as it is seen, and what is fetched later over it. */
+  #moved() {
+    const [width, height] = this.#size;
+    const { clientWidth, clientHeight } = this.#canvas;
+    const clamped = (x, cells, pixels) => {
+      const half = Math.min(cells, pixels / this.#view.zoom) / 2;
+      return Math.min(cells - half, Math.max(half, x));
+    };
+    this.#view.x = clamped(this.#view.x, width, clientWidth);
+    this.#view.y = clamped(this.#view.y, height, clientHeight);
+    this.#paint();
+    this.#draw();
+  }
+
+  #fitting() {
+    const [width, height] = this.#size;
+    const { clientWidth, clientHeight } = this.#canvas;
+    return Math.min(LARGEST, clientWidth / Math.max(1, width), clientHeight / Math.max(1, height));
+  }
+
+  #resized() {
+    const { clientWidth, clientHeight } = this.#canvas;
+    const ratio = window.devicePixelRatio || 1;
+    const [width, height] = [clientWidth, clientHeight].map((side) => Math.round(side * ratio));
+    if (this.#canvas.width === width && this.#canvas.height === height) return;
+    [this.#canvas.width, this.#canvas.height] = [width, height];
+    if (this.#isFitted) this.fit();
+    else this.zoom(1);
+  }
+
+  /** Asks for the squares that are seen. */
+  async #fetch() {
+    const [width, height] = this.#size;
+    if (!width || !height || !this.#canvas.clientWidth) return;
+    const { x, y, zoom } = this.#view;
+    const ratio = window.devicePixelRatio || 1;
+    const block = Math.max(1, Math.ceil(1 / (zoom * ratio) - 1e-9));
+    const part = (at, pixels, cells) => {
+      const half = pixels / zoom / 2;
+      const from = Math.max(0, Math.floor((at - half) / block) * block);
+      return [from, Math.min(cells, Math.ceil((at + half) / block) * block)];
+    };
+    const columns = part(x, this.#canvas.clientWidth, width);
+    const rows = part(y, this.#canvas.clientHeight, height);
+    const bytes = await this.#client.ask({ ask: "squares", of: this.#of, columns, rows, block });
+    const across = Math.ceil((columns[1] - columns[0]) / block);
+    const down = Math.ceil((rows[1] - rows[0]) / block);
+    // Another grid may be shown by now.
+    if (bytes.length !== 4 * across * down || this.#size[0] !== width) return;
+    const picture = make("canvas", { width: across, height: down });
+    picture.getContext("2d").putImageData(new ImageData(new Uint8ClampedArray(bytes.buffer), across, down), 0, 0);
+    this.#picture = { picture, left: columns[0], bottom: rows[0], block, across, down };
+    this.#paint();
+  }
+
+  /** Returns the pixel of the canvas of a place in cells. */
+  #at(x, y) {
+    const { width, height, clientWidth } = this.#canvas;
+    const scale = this.#view.zoom * (width / clientWidth);
+    return [width / 2 + (x - this.#view.x) * scale, height / 2 - (y - this.#view.y) * scale, scale];
+  }
+
+  #paint() {
+    const context = this.#canvas.getContext("2d");
+    context.clearRect(0, 0, this.#canvas.width, this.#canvas.height);
+    if (this.#picture) {
+      const { picture, left, bottom, block, across, down } = this.#picture;
+      const [x, y, scale] = this.#at(left, bottom + down * block);
+      context.imageSmoothingEnabled = false;
+      context.drawImage(picture, x, y, across * block * scale, down * block * scale);
+    }
+    if (this.#cursor) {
+      const [column, row] = this.#cursor;
+      const [x, y, scale] = this.#at(column, row + 1);
+      const side = Math.max(scale, 6);
+      for (const [colour, out] of [["#000", 2], ["#fff", 1]]) {
+        context.strokeStyle = colour;
+        context.lineWidth = 1.5;
+        context.strokeRect(x - out, y - out, side + 2 * out, side + 2 * out);
+      }
+    }
+  }
+
+  /** Returns the picture as it is seen. */
+  picture() {
+    return this.#canvas;
+  }
+
+  async #tell(column, row) {
+    const cell = await this.#client.json({ ask: "cell", of: this.#of, column, row });
+    this.#told(cell, column, row);
+  }
+
+  /** Returns the place in cells under an event of the pointer. */
+  #place({ clientX, clientY }) {
+    const { left, top, width, height } = this.#canvas.getBoundingClientRect();
+    const { x, y, zoom } = this.#view;
+    return [x + (clientX - left - width / 2) / zoom, y - (clientY - top - height / 2) / zoom];
+  }
+
+  #point(place) {
+    const [column, row] = place.map(Math.floor);
+    const [width, height] = this.#size;
+    if (column < 0 || row < 0 || column >= width || row >= height) return;
+    this.#cursor = [column, row];
+    this.#paint();
+    this.#look(column, row);
+  }
+
+  #listen() {
+    const canvas = this.#canvas;
+    const held = new Map();
+    canvas.addEventListener("pointerdown", (event) => {
+      canvas.setPointerCapture(event.pointerId);
+      held.set(event.pointerId, event);
+    });
+    canvas.addEventListener("pointermove", (event) => {
+      if (!this.#size[0]) return;
+      const before = held.get(event.pointerId);
+      if (!before) return this.#point(this.#place(event));
+      if (held.size === 2) {
+        const other = [...held.values()].find(({ pointerId }) => pointerId !== event.pointerId);
+        const apart = (a, b) => Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY);
+        this.zoom(apart(event, other) / Math.max(1, apart(before, other)), this.#place(event));
+      } else {
+        this.#view.x -= (event.clientX - before.clientX) / this.#view.zoom;
+        this.#view.y += (event.clientY - before.clientY) / this.#view.zoom;
+        this.#moved();
+      }
+      held.set(event.pointerId, event);
+    });
+    for (const end of ["pointerup", "pointercancel"]) {
+      canvas.addEventListener(end, (event) => {
+        held.delete(event.pointerId);
+        if (end === "pointerup" && this.#size[0]) this.#point(this.#place(event));
+      });
+    }
+    canvas.addEventListener("wheel", (event) => {
+      if (!this.#size[0]) return;
+      event.preventDefault();
+      this.zoom(2 ** (-event.deltaY / 240), this.#place(event));
+    }, { passive: false });
+    canvas.addEventListener("keydown", (event) => this.#key(event));
+  }
+
+  #key(event) {
+    const [width, height] = this.#size;
+    if (!width) return;
+    const step = event.shiftKey ? 10 : 1;
+    const moves = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, step], ArrowDown: [0, -step] };
+    const zooms = { "+": 2, "=": 2, "-": 0.5, _: 0.5 };
+    if (event.key in moves) {
+      const [column, row] = this.#cursor ?? [this.#view.x, this.#view.y].map(Math.floor);
+      const within = (at, cells) => Math.min(cells - 1, Math.max(0, at));
+      const [across, up] = moves[event.key];
+      const place = [within(column + across, width), within(row + up, height)];
+      this.#follow(place);
+      this.#point(place);
+    } else if (event.key in zooms) {
+      this.zoom(zooms[event.key], this.#cursor?.map((at) => at + 0.5));
+    } else if (event.key === "0") {
+      this.fit();
+    } else {
+      return;
+    }
+    event.preventDefault();
+  }
+
+  /** Moves the view so that a cell is in it. */
+  #follow([column, row]) {
+    const half = [this.#canvas.clientWidth, this.#canvas.clientHeight].map((side) => side / this.#view.zoom / 2);
+    const into = (at, middle, reach) => Math.min(at + reach - 1, Math.max(at - reach + 2, middle));
+    this.#view.x = into(column, this.#view.x, half[0]);
+    this.#view.y = into(row, this.#view.y, half[1]);
+    this.#moved();
+  }
+}
+
+/** Returns what a cell holds, in a line. */
+export const inWords = ({ p, entropy, information, unknown }) =>
+  `p ${p}, H ${entropy}, I ${information} bits${unknown ? " (unknown)" : ""}`;

@@ -1,0 +1,348 @@
+// The first view: maps that are dropped or chosen, their numbers, and one of them looked at.
+import { Client } from "./client.mjs";
+import { chart } from "./chart.mjs";
+import { HeatMap, inWords } from "./heatmap.mjs";
+import { element, fixed, grouped, held, make, save } from "./parts.mjs";
+import { drawnPicture } from "./picture.mjs";
+
+const IMAGE = /\.(pgm|png|bmp|ppm|pbm|pnm|jpe?g|tiff?|gif|webp|tga)$/i;
+const MAP = /\.(ya?ml|np[yz]|gridmap(\.gz)?|ot|bt|pbstream)$/i;
+
+export class Maps {
+  #client;
+  #files = new Map();
+  /** The rows of each map by its file's name, in the order in which they were measured. */
+  #rows = new Map();
+  #chosen = null;
+  #opened = null;
+  #heatMap;
+  /** What was dropped or changed waits for what came before. */
+  #queue = Promise.resolve();
+  #turn = 0;
+
+  /** @param {Client} client */
+  constructor(client) {
+    this.#client = client;
+    this.#heatMap = new HeatMap(element("heat-map"), client, "map", (cell, column, row) => this.#tellCell(cell, column, row));
+    this.#listen();
+    const inside = held("maps");
+    this.add(inside.length ? inside : held("sample"), !inside.length);
+  }
+
+  /** Adds files, and measures the maps among them. A sample goes when something else comes. */
+  add(files, isSample = false) {
+    return this.#then(() => this.#add(files, isSample));
+  }
+
+  /** Does something when all before is done. */
+  #then(work) {
+    this.#queue = this.#queue.then(work).catch((error) => this.#refuse(error.message));
+    return this.#queue;
+  }
+
+  #isSample = false;
+
+  async #add(files, isSample) {
+    if (this.#isSample) await this.#forget();
+    this.#isSample = isSample;
+    for (const file of files) this.#files.set(file.name, file);
+    await this.#list();
+    await this.#learnImages();
+    element("errors").replaceChildren();
+    const given = files.map(({ name }) => name);
+    // An image that came may be the one that a description waits for.
+    const waiting = [...this.#missing.keys()].filter((name) => !given.includes(name));
+    const maps = [...given.filter((name) => !IMAGE.test(name)), ...waiting];
+    for (const name of maps) await this.#measure(name);
+    this.#offerDescriptions();
+    if (this.#rows.size && !this.#rows.has(this.#chosen)) await this.#choose([...this.#rows.keys()][0]);
+    if (maps.length > 1) this.#tell(`${this.#rows.size} maps are measured`);
+  }
+
+  #list() {
+    return this.#client.ask({ ask: "files", files: [...this.#files.values()] });
+  }
+
+  async #forget() {
+    this.#files.clear();
+    this.#rows.clear();
+    this.#missing.clear();
+    this.#images.clear();
+    this.#chosen = null;
+    this.#hide();
+    await this.#client.ask({ ask: "forget" });
+    this.#table();
+    this.#offerDescriptions();
+  }
+
+  #reading() {
+    const form = new FormData(element("reading"));
+    const text = (name) => form.get(name)?.toString().trim() ?? "";
+    return {
+      semantics: text("semantics"), mode: text("mode"), unknown: text("unknown"), encoding: text("encoding"),
+      resolution: text("resolution"), submaps: form.get("submaps") === "on",
+    };
+  }
+
+  /** The images that descriptions name and that are not here, by the description's name. */
+  #missing = new Map();
+
+  async #measure(name) {
+    this.#missing.delete(name);
+    try {
+      this.#busy(`measuring ${name}`);
+      const text = await this.#client.text({ ask: "measure", name, reading: this.#reading() });
+      this.#rows.set(name, JSON.parse(text));
+      this.#table();
+    } catch (error) {
+      if (error.missingImage) this.#missing.set(name, error.missingImage);
+      this.#refuse(error.message, error.missingImage);
+    } finally {
+      this.#idle();
+    }
+  }
+
+  /** Measures everything again, as the choices say now. */
+  #again() {
+    this.#then(async () => {
+      const [names, chosen] = [[...this.#rows.keys()], this.#chosen];
+      await this.#client.ask({ ask: "forget" });
+      this.#rows.clear();
+      element("errors").replaceChildren();
+      for (const name of [...names, ...this.#refused].filter((name, k, all) => all.indexOf(name) === k)) await this.#measure(name);
+      this.#table();
+      this.#hide();
+      const next = this.#rows.has(chosen) ? chosen : [...this.#rows.keys()][0];
+      if (next) await this.#choose(next);
+    });
+  }
+
+  get #refused() {
+    return [...this.#files.keys()].filter((name) => MAP.test(name) && !this.#rows.has(name));
+  }
+
+  #refuse(message, missingImage = null) {
+    const hint = missingImage ? ` Drop ${missingImage.split(/[\\/]/).pop()} here, too.` : "";
+    element("errors").append(make("p", {}, `meaninfo: ${message}`, hint));
+  }
+
+  /** Offers to describe the images that no description names. */
+  #offerDescriptions() {
+    const described = new Set(this.#images.values());
+    const images = [...this.#files.keys()].filter((name) => IMAGE.test(name) && !described.has(name));
+    element("describe").hidden = !images.length;
+    element("described").replaceChildren(...images.map((name) => make("option", {}, name)));
+  }
+
+  /** The image that each description names, by the text of small files: what else is in them their reader tells. */
+  #images = new Map();
+
+  async #learnImages() {
+    for (const [name, file] of this.#files) {
+      if (!/\.ya?ml$/i.test(name) || file.size > 1 << 20) continue;
+      const named = /^\s*image\s*:\s*["']?([^"'#\n\r]*)/m.exec(await file.text())?.[1]?.trim();
+      if (named) this.#images.set(name, named.split(/[\\/]/).pop());
+    }
+  }
+
+  #describe() {
+    const form = new FormData(element("describe"));
+    const image = form.get("image");
+    const lines = ["resolution", "occupied_thresh", "free_thresh", "mode", "negate"].map((name) => `${name}: ${form.get(name)}`);
+    const text = `image: ${image}\norigin: [0, 0, 0]\n${lines.join("\n")}\n`;
+    return this.add([new File([text], image.replace(/\.[^.]*$/, ".yaml"))]);
+  }
+
+  #busy(text) {
+    this.#tell(text);
+    element("progress").removeAttribute("value");
+    element("progress").hidden = false;
+    element("stop").hidden = false;
+    this.#client.progress = (part) => { element("progress").value = part; };
+  }
+
+  #idle() {
+    this.#tell("");
+    element("progress").hidden = true;
+    element("stop").hidden = true;
+  }
+
+  #tell(text) {
+    element("status").textContent = text;
+  }
+
+  #table() {
+    const rows = [...this.#rows].flatMap(([name, rows]) => rows.map((row) => this.#row(name, row)));
+    element("rows").replaceChildren(...rows);
+    element("several").hidden = rows.length < 2;
+    element("exports").hidden = !rows.length;
+  }
+
+  #row(name, row) {
+    const cell = (label, ...content) => make("td", { class: "number", "data-label": label }, ...content);
+    const choose = make("button", { type: "button", "aria-pressed": String(name === this.#chosen), onclick: () => this.#queueChoice(name) }, row.map);
+    return make("tr", {},
+      make("th", { scope: "row" }, choose),
+      cell("cells", sizeOf(row)),
+      cell("mean information", fixed(row.mean_information, 6), row.meaningful ? "" : " (not meaningful)"),
+      cell("information (bits)", fixed(row.information_bits, 3)),
+      cell("entropy (bits)", fixed(row.entropy_bits, 3)),
+      cell("observed", grouped(row.observed)),
+      cell("free / occupied", `${grouped(row.free)} / ${grouped(row.occupied)}`),
+      cell("unknown", row.unknown === null ? "–" : grouped(row.unknown)));
+  }
+
+  #queueChoice(name) {
+    this.#then(() => this.#choose(name));
+  }
+
+  async #choose(name) {
+    this.#chosen = name;
+    this.#hide();
+    this.#table();
+    this.#summary(name);
+    const turn = ++this.#turn;
+    try {
+      this.#busy(`looking at the cells of ${name}`);
+      this.#opened = await this.#client.json({ ask: "open", name, reading: this.#reading() });
+      if (turn !== this.#turn) return;
+      if (this.#opened.cells && this.#opened.width && this.#opened.height) {
+        const { width, height } = this.#opened;
+        element("picture").hidden = false;
+        element("save-png").hidden = false;
+        element("heat-map").style.setProperty("--ratio", Math.min(3, Math.max(0.6, width / height)));
+        this.#heatMap.show(width, height);
+      }
+      this.#tell(`averaging the cells of ${name}`);
+      this.#sweep(await this.#client.json({ ask: "sweep" }));
+    } catch (error) {
+      element("no-picture").textContent = `No picture: ${error.message}.`;
+    } finally {
+      this.#idle();
+    }
+  }
+
+  #hide() {
+    this.#opened = null;
+    this.#heatMap.hide();
+    element("picture").hidden = true;
+    element("save-png").hidden = true;
+    element("sweep").hidden = true;
+    element("summary").hidden = true;
+    element("no-picture").textContent = "";
+    element("cell-told").textContent = "Point at a cell, or move over the map with the arrow keys.";
+  }
+
+  #summary(name) {
+    const row = this.#rows.get(name)[0];
+    element("summary").hidden = false;
+    element("chosen").textContent = this.#isSample ? `${row.map}, a sample` : row.map;
+    element("number").textContent = row.mean_information === null ? "none" : String(row.mean_information);
+    element("unit").hidden = row.mean_information === null;
+    element("read").textContent = reading(row);
+    const facts = [
+      ["cells", sizeOf(row)],
+      ["resolution", row.resolution_m === null ? "not given" : `${row.resolution_m} m`],
+      ["observed", `${grouped(row.observed)} cells${row.observed_area_m2 === null ? "" : `, ${row.observed_area_m2} m²`}`],
+      ["free, occupied", `${grouped(row.free)}, ${grouped(row.occupied)}`],
+      ["unknown", row.unknown === null ? "all around the leaves" : grouped(row.unknown)],
+      ["information", `${row.information_bits} bits`],
+      ["entropy", `${row.entropy_bits} bits, unknown cells at 1 each`],
+      ["exact value", row.mean_information_hex ?? "none"],
+    ];
+    element("facts").replaceChildren(...facts.map(([name, value]) => make("div", {}, make("dt", {}, name), make("dd", {}, value))));
+    element("warnings").replaceChildren(...row.warnings.map((warning) => make("li", {}, warning)));
+    element("warned").hidden = !row.warnings.length;
+  }
+
+  #sweep({ rows }) {
+    const inMetres = rows.every((row) => row.resolution_m !== null);
+    const points = rows.filter((row) => row.mean_information !== null)
+      .map((row) => [inMetres ? row.resolution_m : row.k, row.mean_information]);
+    if (!points.length) return;
+    element("sweep").hidden = false;
+    element("sweep-chart").replaceChildren(chart({
+      title: `Mean information against cell size, from ${points[0][1].toFixed(4)} to ${points.at(-1)[1].toFixed(4)} bits`,
+      xLabel: inMetres ? "cell size (m)" : "cell size (cells of the map)", yLabel: "bits per observed cell",
+      curves: [{ points, kind: "first" }], y: [0, 1], doubles: true, marks: true,
+    }));
+    const cells = (row) => [
+      inMetres ? `${row.resolution_m} m` : `${row.k} × ${row.k}`, fixed(row.mean_information, 6), grouped(row.observed),
+    ];
+    element("sweep-rows").replaceChildren(...rows.map((row) => make("tr", {}, ...cells(row).map((text) => make("td", { class: "number" }, text)))));
+  }
+
+  #tellCell(cell, column, row) {
+    const { resolution_m: side, x, y, yaw } = this.#opened ?? {};
+    const place = side && !yaw ? `, at ${(x + (column + 0.5) * side).toFixed(3)}, ${(y + (row + 0.5) * side).toFixed(3)} m` : "";
+    element("cell-told").textContent = `Column ${column}, row ${row}${place}: ${inWords(cell)}`;
+  }
+
+  async #export(format) {
+    const text = await this.#client.text({ ask: "rows", format });
+    save(`mean-information.${format}`, new Blob([text], { type: format === "csv" ? "text/csv" : "application/json" }));
+  }
+
+  async #exportPicture() {
+    const row = this.#rows.get(this.#chosen)[0];
+    const titles = [row.map, `mean information: ${fixed(row.mean_information, 6)} bits per observed cell${row.meaningful ? "" : " (not meaningful)"}`];
+    save(`${row.map}.png`, await drawnPicture(this.#heatMap.picture(), titles, await this.#client.ask({ ask: "colours" })));
+  }
+
+  #listen() {
+    const zone = element("drop");
+    const over = (is) => (event) => {
+      event.preventDefault();
+      zone.classList.toggle("over", is);
+    };
+    for (const target of [document.body]) {
+      target.addEventListener("dragover", over(true));
+      target.addEventListener("dragleave", over(false));
+      target.addEventListener("drop", (event) => {
+        over(false)(event);
+        this.#dropped(event.dataTransfer);
+      });
+    }
+    element("files").addEventListener("change", ({ target }) => {
+      this.add([...target.files]);
+      target.value = "";
+    });
+    element("reading").addEventListener("change", () => this.#again());
+    element("reading").addEventListener("submit", (event) => event.preventDefault());
+    element("describe").addEventListener("submit", (event) => {
+      event.preventDefault();
+      this.#describe();
+    });
+    element("stop").addEventListener("click", () => this.#client.stop());
+    element("clear").addEventListener("click", () => {
+      this.#then(() => this.#forget()).then(() => element("errors").replaceChildren());
+    });
+    element("zoom-in").addEventListener("click", () => this.#heatMap.zoom(2));
+    element("zoom-out").addEventListener("click", () => this.#heatMap.zoom(0.5));
+    element("fit").addEventListener("click", () => this.#heatMap.fit());
+    element("save-json").addEventListener("click", () => this.#export("json"));
+    element("save-csv").addEventListener("click", () => this.#export("csv"));
+    element("save-png").addEventListener("click", () => this.#exportPicture());
+  }
+
+  #dropped({ items, files }) {
+    const folders = [...items].map((item) => item.webkitGetAsEntry?.()).filter((entry) => entry?.isDirectory);
+    const names = new Set(folders.map(({ name }) => name));
+    this.add([...files].filter(({ name }) => !names.has(name))).then(() => {
+      for (const name of names) this.#refuse(`${name}: is a directory; allowed are files`);
+    });
+  }
+}
+
+/** Returns a map's size in words. */
+function sizeOf(row) {
+  if (row.leaves !== undefined && row.leaves !== null) return `${grouped(row.leaves)} leaves`;
+  return row.width === null ? "submaps" : `${row.width} × ${row.height}`;
+}
+
+/** Returns how to read a mean information. */
+function reading(row) {
+  if (row.mean_information === null) return "Nothing is observed, so there is no mean information.";
+  const scale = "From 0, which says nothing of the cells that were seen, to 1, which leaves no doubt. Unknown cells do not count.";
+  return row.meaningful ? scale : `${scale} Here it means nothing: the warnings say why.`;
+}

@@ -1,0 +1,72 @@
+// The second view: the circular room, with sliders for what the report's Figs. 3 to 5 show.
+import { chart, key } from "./chart.mjs";
+import { HeatMap, inWords } from "./heatmap.mjs";
+import { element, grouped, latest, make } from "./parts.mjs";
+
+const SLIDERS = ["range", "sigma", "side"];
+
+export class Room {
+  #client;
+  #heatMap;
+  #draw = latest(() => this.#compute());
+
+  constructor(client) {
+    this.#client = client;
+    this.#heatMap = new HeatMap(element("disc"), client, "room", (cell, column, row) => {
+      element("disc-told").textContent = `Column ${column}, row ${row}: ${inWords(cell)}`;
+    });
+    for (const name of SLIDERS) {
+      const [slider, number] = [element(`${name}-slider`), element(`${name}-number`)];
+      slider.addEventListener("input", () => {
+        number.value = slider.value;
+        this.#draw();
+      });
+      number.addEventListener("input", () => {
+        slider.value = number.value;
+        this.#draw();
+      });
+    }
+    for (const [id, by] of [["disc-in", 2], ["disc-out", 0.5]]) {
+      element(id).addEventListener("click", () => this.#heatMap.zoom(by));
+    }
+    element("disc-fit").addEventListener("click", () => this.#heatMap.fit());
+  }
+
+  /** Draws the room; to be called when the view is shown. */
+  show() {
+    this.#draw();
+  }
+
+  async #compute() {
+    const [range, sigma, resolution] = SLIDERS.map((name) => element(`${name}-number`).value);
+    try {
+      const room = await this.#client.json({ ask: "room", range, sigma, resolution });
+      element("room-error").textContent = "";
+      this.#tell(room);
+    } catch (error) {
+      element("room-error").textContent = error.message;
+    }
+  }
+
+  #tell(room) {
+    const rows = [
+      ["polar: rings of equal width (Eq. 7)", room.limit_polar, room.polar, room.polar_observed],
+      ["Cartesian: squares", room.limit_cartesian, room.cartesian, room.cartesian_observed],
+    ];
+    element("limits").replaceChildren(...rows.map(([name, limit, grid, observed]) => make("tr", {},
+      make("th", { scope: "row" }, name),
+      make("td", { class: "number", "data-label": "limit" }, String(limit)),
+      make("td", { class: "number", "data-label": "this grid" }, String(grid)),
+      make("td", { class: "number", "data-label": "observed cells" }, grouped(observed)))));
+    const curve = (values) => room.distances_m.map((rho, k) => [rho, values[k]]);
+    element("sensor").replaceChildren(chart({
+      title: `The sensor model: occupancy and information against distance, for a reading of ${room.range_m} m`,
+      xLabel: "distance ρ from the sensor (m)", yLabel: "p, and bits", y: [0, 1],
+      curves: [
+        { points: curve(room.occupancy), kind: "first" },
+        { points: curve(room.information), kind: "second" },
+      ],
+    }), key([{ name: "occupancy p(ρ)", kind: "first" }, { name: "information I(p(ρ)), bits", kind: "second" }]));
+    this.#heatMap.show(room.width, room.height);
+  }
+}

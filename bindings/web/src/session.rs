@@ -1,0 +1,291 @@
+//! The maps that were measured, and the one that is looked at.
+
+use crate::files::{Dropped, ReadPiece};
+use crate::request::{Choices, Drawn, Format, Request};
+use crate::room::{Room, of_occupancy, one_cell};
+use mean_information::Real;
+use mean_information::map::{Encoding, Grid};
+use mean_information_files::{Cells, Map, octree, read_map_from, with_grid};
+use mean_information_report::octree::MeasuredDepths;
+use mean_information_report::squares::{UNKNOWN, colour, squares};
+use mean_information_report::sweep::Sweep;
+use mean_information_report::{MeasuredMap, Number, Record, Refused, Value, port, record, records};
+use serde_json::json;
+use std::path::Path;
+
+/// The opaque alpha of pictures.
+const OPAQUE: u8 = 255;
+
+/// The state between requests.
+pub(crate) struct Session {
+    read: ReadPiece,
+    files: Dropped,
+    rows: Vec<MeasuredMap>,
+    open: Open,
+    room: Option<Room>,
+}
+
+/// What is looked at.
+enum Open {
+    Nothing,
+    Map(String, Map),
+    /// An octree, whose cells lie in no rectangle.
+    Tree(Sweep),
+}
+
+impl Session {
+    /// Creates the session of a page whose files are read by `read`.
+    pub(crate) fn new(read: ReadPiece) -> Self {
+        let files = Dropped::new(Vec::new(), read);
+        Self { read, files, rows: Vec::new(), open: Open::Nothing, room: None }
+    }
+
+    /// Answers a request.
+    ///
+    /// # Errors
+    /// A refusal, as JSON: its `message` is one line, and `missing_image` the image that a yaml file names and that is not
+    /// among the files.
+    pub(crate) fn ask(&mut self, request: &[u8]) -> Result<Vec<u8>, String> {
+        let request = serde_json::from_slice(request).map_err(|error| refusal(&error.to_string()))?;
+        match request {
+            Request::Squares { of, columns, rows, block } => self.squares(of, columns, rows, block),
+            Request::Colours => Ok(colours()),
+            request => self.text(request).map(String::into_bytes),
+        }
+    }
+
+    /// Answers a request for text.
+    fn text(&mut self, request: Request) -> Result<String, String> {
+        match request {
+            Request::Files { files } => {
+                self.files = Dropped::new(files, self.read);
+                Ok(String::new())
+            }
+            Request::Measure { name, reading } => {
+                let rows = MeasuredMap::read_from(&self.files, Path::new(&name), &reading.reading());
+                let rows = rows.map_err(of_file)?;
+                let text = record::to_json(&records(&rows).into());
+                self.rows.extend(rows);
+                Ok(text)
+            }
+            Request::Forget => {
+                self.rows.clear();
+                self.open = Open::Nothing;
+                Ok(String::new())
+            }
+            Request::Rows { format } => Ok(match format {
+                Format::Json => record::to_json(&records(&self.rows).into()),
+                Format::Csv => record::to_csv(&records(&self.rows)),
+            }),
+            Request::Open { name, reading } => self.open(name, &reading),
+            Request::Sweep => self.sweep(),
+            Request::Cell { of, column, row } => self.cell(of, column, row),
+            Request::Room { range, sigma, resolution } => {
+                let room = Room::new(&range, &sigma, &resolution).map_err(|why| refusal(&why))?;
+                let text = record::to_json(&Value::Record(room.record.clone()));
+                self.room = Some(room);
+                Ok(text)
+            }
+            Request::Occupancy { p } => {
+                let record = one_cell(&p).map_err(|why| refusal(&why))?;
+                Ok(record::to_json(&Value::Record(record)))
+            }
+            Request::Port { line } => Ok(port::answer(line.as_bytes()).unwrap_or_default()),
+            Request::Squares { .. } | Request::Colours => Err(refusal("a picture is no text")),
+        }
+    }
+
+    fn open(&mut self, name: String, reading: &Choices) -> Result<String, String> {
+        // The cells of the map before make room first.
+        self.open = Open::Nothing;
+        let (reading, path) = (reading.reading(), Path::new(&name));
+        if octree::has_name(path) {
+            let depths = MeasuredDepths::read(&self.files, path, reading.clamp).map_err(of_file)?;
+            self.open = Open::Tree(Sweep::of_depths(name, depths));
+            return Ok(json!({ "cells": false }).to_string());
+        }
+        let map =
+            read_map_from(&self.files, path, &reading.options).map_err(|error| of_file(error.into()))?;
+        let text = with_grid!(&map.cells, grid => {
+            let ([x, y], yaw) = (grid.geometry().origin(), grid.geometry().yaw());
+            json!({
+                "cells": true, "width": grid.width(), "height": grid.height(), "resolution_m": map.resolution,
+                "x": x, "y": y, "yaw": yaw,
+            })
+        });
+        self.open = Open::Map(name, map);
+        Ok(text.to_string())
+    }
+
+    fn sweep(&self) -> Result<String, String> {
+        let json = match &self.open {
+            Open::Nothing => return Err(refusal("no map is open")),
+            Open::Tree(sweep) => sweep.json(),
+            Open::Map(name, map) => {
+                Sweep::of(name.clone(), map, |_| {}).map_err(|error| refusal(&error.to_string()))?.json()
+            }
+        };
+        Ok(record::to_json(&json))
+    }
+
+    fn squares(
+        &self,
+        of: Drawn,
+        [left, right]: [usize; 2],
+        [bottom, top]: [usize; 2],
+        block: usize,
+    ) -> Result<Vec<u8>, String> {
+        let drawn = match of {
+            Drawn::Map => {
+                with_grid!(self.cells()?, grid => painted(grid, [left, right], [bottom, top], block))
+            }
+            Drawn::Room => painted(&self.room()?.grid, [left, right], [bottom, top], block),
+        };
+        Ok(drawn)
+    }
+
+    fn cell(&self, of: Drawn, column: usize, row: usize) -> Result<String, String> {
+        let record = match of {
+            Drawn::Map => with_grid!(self.cells()?, grid => looked_at(grid, column, row)),
+            Drawn::Room => looked_at(&self.room()?.grid, column, row),
+        };
+        let record = record.ok_or_else(|| refusal("there is no such cell"))?;
+        Ok(record::to_json(&Value::Record(record)))
+    }
+
+    fn cells(&self) -> Result<&Cells, String> {
+        match &self.open {
+            Open::Map(_, map) => Ok(&map.cells),
+            _ => Err(refusal("no map of cells is open")),
+        }
+    }
+
+    fn room(&self) -> Result<&Room, String> {
+        self.room.as_ref().ok_or_else(|| refusal("no room is drawn"))
+    }
+}
+
+/// Returns the pixels of a part of a grid, row by row from the top.
+fn painted<E: Encoding>(
+    grid: &Grid<E>,
+    [left, right]: [usize; 2],
+    [bottom, top]: [usize; 2],
+    block: usize,
+) -> Vec<u8> {
+    let block = block.max(1);
+    let (right, top) = (right.min(grid.width()), top.min(grid.height()));
+    let columns = right.saturating_sub(left).div_ceil(block);
+    let pixels: Vec<[u8; 4]> = squares(grid, left..right, bottom..top, block)
+        .map(|bits| {
+            let [red, green, blue] = bits.map_or(UNKNOWN, colour);
+            [red, green, blue, OPAQUE]
+        })
+        .collect();
+    pixels.chunks(columns.max(1)).rev().flatten().flatten().copied().collect()
+}
+
+/// Returns the record of a cell of a grid, with its place.
+fn looked_at<E: Encoding>(grid: &Grid<E>, column: usize, row: usize) -> Option<Record> {
+    let &stored = grid.row(row)?.get(column)?;
+    // In the encoding, whose log-odds say more than the float of an occupancy.
+    let cell = E::cell(stored)?;
+    let Record(mut entries) = of_occupancy(E::occupancy(stored)?);
+    let computed = |x: E::Float| Value::Computed(Some(Number::new(x)));
+    entries[1].1 = computed(cell.entropy());
+    entries[2].1 = computed(cell.information());
+    entries.push(("unknown", Value::Flag(E::occupancy(stored)? == E::Float::HALF)));
+    Some(Record(entries))
+}
+
+/// Returns the colours of the scale, and that of unknown.
+fn colours() -> Vec<u8> {
+    let scale = (0..=255).map(|k| colour(f64::from(k) / 255.0));
+    scale.chain([UNKNOWN]).flatten().collect()
+}
+
+/// Returns a refusal as JSON.
+fn refusal(message: &str) -> String {
+    json!({ "message": message, "missing_image": null }).to_string()
+}
+
+/// Returns the refusal of a file as JSON.
+fn of_file(refused: Refused) -> String {
+    json!({ "message": refused.to_string(), "missing_image": refused.missing_image }).to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const YAML: &[u8] = b"image: map.pgm\nresolution: 0.05\norigin: [1, 2, 0]\nnegate: 0\nmode: scale\n\
+        occupied_thresh: 1\nfree_thresh: 0\n";
+    const PGM: &[u8] = b"P5\n2 2\n255\n\x00\x7f\xff\x40";
+
+    fn read(file: u32, at: u64, into: &mut [u8]) -> Option<usize> {
+        let bytes = [YAML, PGM].get(file as usize)?.get(at as usize..)?;
+        let length = bytes.len().min(into.len());
+        into[..length].copy_from_slice(&bytes[..length]);
+        Some(length)
+    }
+
+    fn with_files() -> Session {
+        let mut session = Session::new(read);
+        let files = json!([
+            { "name": "map.yaml", "length": YAML.len() }, { "name": "map.pgm", "length": PGM.len() },
+        ]);
+        ask(&mut session, &json!({ "ask": "files", "files": files })).unwrap();
+        session
+    }
+
+    fn ask(session: &mut Session, request: &serde_json::Value) -> Result<Vec<u8>, String> {
+        session.ask(request.to_string().as_bytes())
+    }
+
+    fn text(session: &mut Session, request: &serde_json::Value) -> String {
+        String::from_utf8(ask(session, request).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn a_map_is_measured_looked_at_and_forgotten() {
+        let mut session = with_files();
+        let reading = json!({});
+        let rows = text(&mut session, &json!({ "ask": "measure", "name": "map.yaml", "reading": reading }));
+        assert!(rows.contains("\"mean_information\": 0.72957"), "{rows}");
+        assert_eq!(text(&mut session, &json!({ "ask": "rows", "format": "json" })), rows);
+        let opened = text(&mut session, &json!({ "ask": "open", "name": "map.yaml", "reading": reading }));
+        assert!(opened.contains("\"width\":2") && opened.contains("\"x\":1.0"), "{opened}");
+        let squares = json!({ "ask": "squares", "of": "map", "columns": [0, 2], "rows": [0, 2], "block": 1 });
+        let pixels = ask(&mut session, &squares).unwrap();
+        // From the top: occupied and unknown, then free and grey 64.
+        let [certain, unknown] = [colour(1.0), UNKNOWN].map(|[r, g, b]| [r, g, b, OPAQUE]);
+        assert_eq!([&pixels[..4], &pixels[4..8], &pixels[8..12]], [certain, unknown, certain]);
+        let cell = text(&mut session, &json!({ "ask": "cell", "of": "map", "column": 1, "row": 0 }));
+        assert!(cell.contains("\"p\": 0.75,") && cell.contains("\"unknown\": false"), "{cell}");
+        assert!(text(&mut session, &json!({ "ask": "sweep" })).contains("\"k\": 2"));
+        ask(&mut session, &json!({ "ask": "forget" })).unwrap();
+        assert_eq!(text(&mut session, &json!({ "ask": "rows", "format": "json" })), "[]\n");
+        assert!(ask(&mut session, &squares).is_err());
+    }
+
+    #[test]
+    fn a_refusal_is_a_line_and_names_the_image_that_lacks() {
+        let mut session = with_files();
+        let measure = |name| json!({ "ask": "measure", "name": name, "reading": { "mode": "scale" } });
+        let refused = ask(&mut session, &measure("other.yaml")).unwrap_err();
+        assert!(
+            refused.contains("other.yaml: cannot be read") && refused.contains("\"missing_image\":null"),
+            "{refused}"
+        );
+        let alone = json!({ "ask": "files", "files": [{ "name": "map.yaml", "length": YAML.len() }] });
+        ask(&mut session, &alone).unwrap();
+        let refused = ask(&mut session, &measure("map.yaml")).unwrap_err();
+        assert!(refused.contains("\"missing_image\":\"map.pgm\""), "{refused}");
+        for request in [
+            json!({ "ask": "nothing" }),
+            json!(3),
+            json!({ "ask": "measure", "name": "a", "reading": { "mode": "x" } }),
+        ] {
+            assert!(ask(&mut session, &request).is_err(), "{request}");
+        }
+    }
+}

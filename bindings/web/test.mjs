@@ -1,0 +1,274 @@
+// The page in headless Chromium against the command: node bindings/web/test.mjs MEANINFO [PAGE.html]
+//
+// playwright-core and axe-core come from the npm registry to target/web; pictures of every view, width and colour scheme are
+// left in target/web/pictures.
+import assert from "node:assert/strict";
+import { execFileSync, spawnSync } from "node:child_process";
+import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { dirname, join, resolve } from "node:path";
+import { fileURLToPath, pathToFileURL } from "node:url";
+
+const TOOLS = ["playwright-core@1.65.1", "axe-core@4.14.1"];
+const root = resolve(dirname(fileURLToPath(import.meta.url)), "../..");
+const target = join(resolve(process.env.CARGO_TARGET_DIR ?? join(root, "target")), "web");
+const meaninfo = resolve(process.argv[2]);
+const page = pathToFileURL(resolve(process.argv[3] ?? join(target, "meaninfo.html"))).href;
+
+if (!TOOLS.every((tool) => existsSync(join(target, "node_modules", tool.split("@")[0])))) {
+  execFileSync("npm", ["install", "--silent", "--no-save", "--no-audit", "--no-fund", "--prefix", target, ...TOOLS]);
+}
+const require = createRequire(join(target, "node_modules/"));
+const { chromium } = require("playwright-core");
+const axe = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
+
+/** What the command says of these arguments, in the folder of the sample. */
+const maps = join(root, "maps");
+const said = (...args) => spawnSync(meaninfo, args, { cwd: maps, encoding: "utf8" });
+const json = (...args) => said(...args, "--format", "json").stdout;
+
+const work = join(tmpdir(), `meaninfo-page-${process.pid}`);
+const pictures = join(target, "pictures");
+for (const folder of [work, pictures]) mkdirSync(folder, { recursive: true });
+const made = (name, bytes) => {
+  writeFileSync(join(work, name), bytes);
+  return join(work, name);
+};
+const YAML = (image) => `image: ${image}\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n`;
+
+const browser = await chromium.launch({
+  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+  args: ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
+    "--disable-component-update", "--disable-sync"],
+});
+let passed = 0;
+const troubles = [];
+
+/** Opens the page anew, and runs a test on it; nothing may be asked of a network. */
+async function test(name, run, options = {}) {
+  const context = await browser.newContext({ acceptDownloads: true, ...options });
+  await context.setOffline(true);
+  const tab = await context.newPage();
+  tab.setDefaultTimeout(60_000);
+  const faults = [];
+  tab.on("pageerror", (error) => faults.push(String(error)));
+  tab.on("console", (message) => message.type() === "error" && faults.push(message.text()));
+  tab.on("request", (request) => /^(file|blob|data):/.test(request.url()) || faults.push(request.url()));
+  try {
+    await tab.goto(options.page ?? page);
+    await run(tab);
+    assert.deepEqual(faults.filter((fault) => !options.expected?.test(fault)), []);
+    passed += 1;
+    console.log(`ok: ${name}`);
+  } catch (error) {
+    troubles.push(name);
+    console.log(`NOT OK: ${name}\n${error.stack}`);
+    await tab.screenshot({ path: join(pictures, "trouble.png"), fullPage: true }).catch(() => {});
+  }
+  await context.close();
+}
+
+const idle = async (tab) => {
+  await tab.locator("#sweep:not([hidden]), #no-picture:not(:empty)").first().waitFor();
+  await tab.locator("#progress").waitFor({ state: "hidden" });
+};
+const saved = async (tab, button) => {
+  const [download] = await Promise.all([tab.waitForEvent("download"), tab.click(button)]);
+  return readFileSync(await download.path());
+};
+/** Drops files on the page as a file manager does. */
+const drop = async (tab, paths) => {
+  const files = paths.map((path) => [path.split("/").pop(), readFileSync(path).toString("base64")]);
+  const data = await tab.evaluateHandle((files) => {
+    const transfer = new DataTransfer();
+    for (const [name, base64] of files) {
+      transfer.items.add(new File([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], name));
+    }
+    return transfer;
+  }, files);
+  await tab.dispatchEvent("#drop", "drop", { dataTransfer: data });
+};
+const accessible = async (tab) => {
+  await tab.evaluate(axe);
+  const { violations } = await tab.evaluate(() => window.axe.run());
+  assert.deepEqual(violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html).join(" ")}`), []);
+};
+
+await test("the sample is there, and is the command's number", async (tab) => {
+  await idle(tab);
+  const [row] = JSON.parse(json("map", "room.yaml"));
+  assert.equal(await tab.textContent("#number"), String(row.mean_information));
+  assert.equal((await saved(tab, "#save-json")).toString(), json("map", "room.yaml"));
+  assert.equal((await saved(tab, "#save-csv")).toString(), said("map", "room.yaml", "--format", "csv").stdout);
+  const png = await saved(tab, "#save-png");
+  assert.equal(png.subarray(1, 4).toString(), "PNG");
+  const steps = JSON.parse(json("sweep", "room.yaml")).rows;
+  const shown = await tab.locator("#sweep-rows tr").evaluateAll((rows) => rows.map((row) => row.cells[1].textContent));
+  assert.deepEqual(shown, steps.map((step) => step.mean_information.toFixed(6)));
+});
+
+await test("the page has no way to a network", async (tab) => {
+  const violated = await tab.evaluate(() => new Promise((resolve) => {
+    addEventListener("securitypolicyviolation", ({ effectiveDirective }) => resolve(effectiveDirective));
+    fetch("https://example.org/").then(() => resolve("reached"), () => {});
+  }));
+  assert.equal(violated, "connect-src");
+}, { expected: /Content Security Policy/ });
+
+await test("the sample dropped; a cell by the keys", async (tab) => {
+  await idle(tab);
+  await drop(tab, ["room.yaml", "room.pgm"].map((name) => join(maps, name)));
+  await tab.waitForFunction(() => document.getElementById("chosen").textContent === "room.yaml");
+  await idle(tab);
+  assert.equal((await saved(tab, "#save-json")).toString(), json("map", "room.yaml"));
+  await tab.focus("#heat-map");
+  await tab.keyboard.press("+");
+  await tab.keyboard.press("ArrowRight");
+  await tab.waitForFunction(() => document.getElementById("cell-told").textContent.includes("H "));
+  assert.match(await tab.textContent("#cell-told"), /Column \d+, row \d+, at [\d.-]+, [\d.-]+ m: p [\d.e-]+, H [\d.e-]+, I [\d.e-]+ bits/);
+});
+
+await test("a broken map is refused by the command's line, and the page goes on", async (tab) => {
+  await idle(tab);
+  const broken = made("broken.yaml", YAML("broken.pgm").replace("0.05", "-0.05"));
+  await drop(tab, [broken, made("broken.pgm", "P5 1 1 255 x")]);
+  await tab.locator("#errors p").waitFor();
+  const line = spawnSync(meaninfo, ["map", "broken.yaml"], { cwd: work, encoding: "utf8" }).stderr.trim();
+  assert.equal(await tab.textContent("#errors p"), line);
+  await drop(tab, ["room.yaml", "room.pgm"].map((name) => join(maps, name)));
+  await idle(tab);
+  assert.equal(await tab.textContent("#number"), String(JSON.parse(json("map", "room.yaml"))[0].mean_information));
+});
+
+await test("a yaml file without its image asks for it", async (tab) => {
+  await idle(tab);
+  await drop(tab, [join(maps, "room.yaml")]);
+  await tab.locator("#errors p").waitFor();
+  assert.match(await tab.textContent("#errors"), /Drop room\.pgm here, too/);
+  await drop(tab, [join(maps, "room.pgm")]);
+  await idle(tab);
+  assert.equal((await saved(tab, "#save-json")).toString(), json("map", "room.yaml"));
+});
+
+await test("an image without a yaml file can be described", async (tab) => {
+  await idle(tab);
+  const pgm = "P5\n3 2\n255\n" + "\x00\xfe\x00\xfe\xcd\xfe";
+  await drop(tab, [made("plan.pgm", Buffer.from(pgm, "latin1"))]);
+  await tab.locator("#describe").waitFor();
+  await tab.click("#describe button");
+  await idle(tab);
+  made("plan.yaml", YAML("plan.pgm"));
+  const [row] = JSON.parse(spawnSync(meaninfo, ["map", "plan.yaml", "--format", "json"], { cwd: work, encoding: "utf8" }).stdout);
+  assert.equal(await tab.textContent("#number"), String(row.mean_information));
+  assert.deepEqual(await tab.locator("#warnings li").allTextContents(), row.warnings);
+  assert.equal(await tab.locator("#describe").isVisible(), false);
+});
+
+await test("three maps at once make a table", async (tab) => {
+  await idle(tab);
+  const npy = (values) => {
+    const head = `{'descr': '<f4', 'fortran_order': False, 'shape': (2, ${values.length / 2}), }`.padEnd(117) + "\n";
+    const length = Buffer.from([head.length & 255, head.length >> 8]);
+    return Buffer.concat([Buffer.from("\x93NUMPY\x01\x00", "latin1"), length, Buffer.from(head), Buffer.from(new Float32Array(values).buffer)]);
+  };
+  const paths = [made("a.npy", npy([0.1, 0.5, 0.9, 0.25])), made("b.npy", npy([0.5, 0.5, 0.5, 0.5, 0.75, 1])), made("c.npy", npy([0, 1, 1, 0]))];
+  await drop(tab, paths);
+  await tab.waitForFunction(() => document.querySelectorAll("#rows tr").length === 3);
+  await idle(tab);
+  const wanted = spawnSync(meaninfo, ["map", "a.npy", "b.npy", "c.npy", "--format", "json"], { cwd: work, encoding: "utf8" }).stdout;
+  assert.equal((await saved(tab, "#save-json")).toString(), wanted);
+  await tab.click("text=b.npy");
+  await tab.waitForFunction(() => document.getElementById("chosen").textContent === "b.npy");
+  assert.equal(await tab.textContent("#number"), String(JSON.parse(wanted)[1].mean_information));
+  // As log-odds they are other maps.
+  await idle(tab);
+  await tab.click("summary");
+  await tab.selectOption("select[name=encoding]", "log-odds");
+  const asLogOdds = spawnSync(meaninfo, ["map", "b.npy", "--encoding", "log-odds", "--format", "json"], { cwd: work, encoding: "utf8" });
+  const number = String(JSON.parse(asLogOdds.stdout)[0].mean_information);
+  await tab.waitForFunction((number) => document.getElementById("number").textContent === number, number);
+  await idle(tab);
+  await accessible(tab);
+});
+
+await test("the room's limits follow a slider", async (tab) => {
+  await tab.click("#room-tab");
+  await tab.locator("#limits tr").first().waitFor();
+  await tab.focus("#sigma-slider");
+  for (let k = 0; k < 3; k++) await tab.keyboard.press("ArrowRight");
+  const sigma = await tab.inputValue("#sigma-number");
+  assert.equal(sigma, "0.23");
+  for (const [row, weight] of [[0, "radial"], [1, "area"]]) {
+    const { value } = JSON.parse(json("limit", "--range", "2", "--sigma", sigma, "--weight", weight));
+    await tab.waitForFunction(([row, value]) => document.querySelectorAll("#limits tr")[row].cells[1].textContent === value, [row, String(value)]);
+  }
+  const grid = JSON.parse(json("converge", "--range", "2", "--sigma", sigma, "--grid", "cartesian", "--resolutions", "0.05"));
+  assert.equal(await tab.textContent("#limits tr:nth-child(2) td:nth-child(3)"), String(grid.rows[0].mean_information));
+  await tab.fill("#range-number", "-1");
+  await tab.locator("#room-error:not(:empty)").waitFor();
+  await tab.fill("#range-number", "2");
+  await tab.locator("#room-error:empty").waitFor({ state: "attached" });
+  await accessible(tab);
+});
+
+await test("one cell, decimal and hexadecimal", async (tab) => {
+  await tab.click("#cell-tab");
+  await tab.fill("#p", "0x1.8p-2");
+  await tab.waitForFunction(() => document.querySelector("#one-rows")?.textContent.includes("0.375"));
+  const bits = Buffer.alloc(8);
+  bits.writeDoubleBE(0.375);
+  const binary = [...bits].map((byte) => byte.toString(2).padStart(8, "0")).join("");
+  assert.equal((await tab.locator("#one-rows tr:nth-child(2) .part").allTextContents()).join(""), binary);
+  const asked = ["cell.entropy", "cell.information"].flatMap((op) => ["f32", "f64"].map((format) =>
+    JSON.stringify({ cmd: "run", seq: 1, op, format, args: { p: "0x1.8p-2" } })));
+  const answers = spawnSync(meaninfo, ["port"], { input: asked.join("\n") + "\n", encoding: "utf8" }).stdout.trim().split("\n");
+  const shown = await tab.textContent("#one-rows");
+  for (const answer of answers) assert.ok(shown.includes(JSON.parse(answer).result), `${answer} in ${shown}`);
+  await tab.fill("#p", "2");
+  await tab.locator("#p-error:not(:empty)").waitFor();
+  assert.equal(await tab.textContent("#p-error"), "p is 2.0, allowed are 0 to 1");
+  await accessible(tab);
+});
+
+await test("maps inside the page", async (tab) => {
+  await idle(tab);
+  assert.equal(await tab.textContent("#chosen"), "plan.yaml");
+  assert.equal(await tab.locator("#errors p").count(), 0);
+}, await withMaps());
+
+/** Has the command write a page with a map inside. */
+async function withMaps() {
+  const out = join(work, "report.html");
+  made("plan.yaml", YAML("plan.pgm"));
+  made("plan.pgm", Buffer.from("P5\n3 2\n255\n\x00\xfe\x00\xfe\xcd\xfe", "latin1"));
+  const { status, stderr } = spawnSync(meaninfo, ["page", "--out", out, "plan.yaml"], { cwd: work, encoding: "utf8" });
+  assert.equal(status, 0, stderr);
+  return { page: pathToFileURL(out).href };
+}
+
+for (const colorScheme of ["light", "dark"]) {
+  for (const [width, height] of [[390, 844], [1200, 900], [2000, 1200]]) {
+    await test(`pictures at ${width} px, ${colorScheme}`, async (tab) => {
+      const shot = (view) => tab.screenshot({ path: join(pictures, `${view}-${width}-${colorScheme}.png`), fullPage: true });
+      const fits = async () => {
+        const [wide, room] = await tab.evaluate(() => [document.documentElement.scrollWidth, document.documentElement.clientWidth]);
+        assert.ok(wide <= room, `${wide} px wide in ${room}`);
+      };
+      await idle(tab);
+      for (const [view, ready] of [["map", "#number"], ["room", "#limits tr"], ["cell", "#one-rows tr"]]) {
+        await tab.click(`#${view}-tab`);
+        await tab.locator(ready).first().waitFor();
+        await tab.waitForTimeout(300);
+        await shot(view);
+        await fits();
+        await accessible(tab);
+      }
+    }, { colorScheme, viewport: { width, height } });
+  }
+}
+
+await browser.close();
+rmSync(work, { recursive: true });
+console.log(`\npictures: ${pictures}\n${passed} passed, ${troubles.length} failed${troubles.map((name) => `\n  ${name}`).join("")}`);
+process.exitCode = troubles.length ? 1 : 0;

@@ -5,7 +5,7 @@ use crate::interruptible::run;
 use crate::limit::choice;
 use crate::tally::PyTally;
 use mean_information::scan::Pose;
-use mean_information_cli::reading::in_words;
+use mean_information_report::words::in_words;
 use mean_information_files::scans::{Bearings, Frame, RangeScan, ScanLog, ScanOptions, TimeField};
 use mean_information_files::{
     ArrayEncoding, Cells, Map, Mode, Options, Semantics, Trajectory, Warning, bags, read_map_from,

@@ -105,7 +105,7 @@ impl PyRangeScan {
     fn bearings<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         let bearings: Vec<f64> = match self.0.bearings() {
             Bearings::Each(bearings) => bearings.to_vec(),
-            even => (0..self.0.ranges().len()).map(|index| even.at(index)).collect(),
+            even @ Bearings::Even { .. } => (0..self.0.ranges().len()).map(|index| even.at(index)).collect(),
         };
         PyArray1::from_vec(py, bearings)
     }

@@ -36,7 +36,8 @@ use pyo3::prelude::*;
 /// The compiled part of `mean_information`.
 #[pymodule(gil_used = false)]
 mod _native {
-    use super::*;
+    use super::ufuncs;
+    use pyo3::prelude::*;
 
     #[pymodule_export]
     use super::command::{arguments_of, command, operation_names, run_operation};

@@ -196,12 +196,11 @@ impl PyTally {
     #[pyo3(signature = (data, /))]
     fn from_bytes(_class: &Bound<'_, PyType>, data: &Bound<'_, PyAny>) -> PyResult<Self> {
         // A buffer of any kind, as bytes; `bytes(324)` would be zeros.
-        let data = match data.cast::<PyBytes>() {
-            Ok(data) => data.clone(),
-            Err(_) => {
-                let view = data.py().import("builtins")?.getattr("memoryview")?.call1((data,))?;
-                view.call_method0("tobytes")?.cast_into::<PyBytes>()?
-            }
+        let data = if let Ok(data) = data.cast::<PyBytes>() {
+            data.clone()
+        } else {
+            let view = data.py().import("builtins")?.getattr("memoryview")?.call1((data,))?;
+            view.call_method0("tobytes")?.cast_into::<PyBytes>()?
         };
         let data = data.as_bytes();
         match format_of_bytes(data).map_err(refused)? {
@@ -231,10 +230,10 @@ impl PyTally {
     }
 
     /// The 0 that `sum()` begins with.
-    fn __radd__(slf: Bound<'_, Self>, other: &Bound<'_, PyAny>) -> PyResult<Py<PyAny>> {
+    fn __radd__(slf: Bound<'_, Self>, other: &Bound<'_, PyAny>) -> Py<PyAny> {
         match other.extract::<u8>() {
-            Ok(0) => Ok(slf.into_any().unbind()),
-            _ => Ok(slf.py().NotImplemented()),
+            Ok(0) => slf.into_any().unbind(),
+            _ => slf.py().NotImplemented(),
         }
     }
 

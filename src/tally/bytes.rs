@@ -45,8 +45,9 @@ impl<T: Real> Tally<T> {
         for count in [self.unknown, self.free, self.occupied] {
             write(&count.to_le_bytes());
         }
-        let limbs = self.entropy.limbs.iter().chain(&self.information.limbs);
-        limbs.for_each(|limb| write(&limb.to_le_bytes()));
+        for limb in self.entropy.limbs.iter().chain(&self.information.limbs) {
+            write(&limb.to_le_bytes());
+        }
         checksum.copy_from_slice(&crc32(body).to_le_bytes());
         bytes
     }

@@ -8,11 +8,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Paths that a reader makes, or that stand for many.
-const MADE: [&str; 6] = [
+const MADE: [&str; 7] = [
     "report/index.html",
     "index.html",
     "vectors/v2",
     "target/mutants",
+    "target/web",
     "v1/OPERATION.json",
     "../shared/data",
 ];

@@ -4,14 +4,14 @@ use crate::errors::{in_python, of_file};
 use crate::interruptible::run;
 use crate::limit::choice;
 use crate::tally::PyTally;
-use mean_information::scan::Pose;
-use mean_information_report::words::in_words;
+use crate::trajectory::{PyTrajectory, numbers};
 use mean_information_files::scans::{Bearings, Frame, RangeScan, ScanLog, ScanOptions, TimeField};
 use mean_information_files::{
-    ArrayEncoding, Cells, Map, Mode, Options, Semantics, Trajectory, Warning, bags, read_map_from,
-    read_scans_from, read_trajectory_from, with_grid,
+    ArrayEncoding, Cells, Map, Mode, Options, Semantics, Warning, bags, read_map_from, read_scans_from,
+    read_trajectory_from, with_grid,
 };
-use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use mean_information_report::words::in_words;
+use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use std::path::PathBuf;
 
@@ -168,70 +168,6 @@ impl PyRangeScan {
     }
 }
 
-/// Poses by their times.
-///
-/// Attributes
-/// ----------
-/// times : ndarray, shape (n,)
-///     Seconds, ascending.
-/// poses : ndarray, shape (n, 3)
-///     x and y in metres, and the heading in radians.
-/// warnings : list of str
-///     Signs that the trajectory means less than it seems.
-#[pyclass(frozen, name = "Trajectory", module = "mean_information")]
-pub(crate) struct PyTrajectory {
-    trajectory: Trajectory,
-    #[pyo3(get)]
-    warnings: Vec<String>,
-}
-
-#[pymethods]
-impl PyTrajectory {
-    #[getter]
-    fn times<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        PyArray1::from_slice(py, self.trajectory.times())
-    }
-
-    #[getter]
-    fn poses<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let numbers = self.trajectory.poses().iter().flat_map(|pose| <[f64; 3]>::from(numbers(pose)));
-        PyArray1::from_iter(py, numbers).reshape([self.trajectory.len(), 3])
-    }
-
-    /// Return the pose at a time: between two poses, the shorter way round.
-    ///
-    /// Parameters
-    /// ----------
-    /// time : float
-    ///     Seconds.
-    /// max_gap : float
-    ///     The longest time between two poses that is bridged, in seconds.
-    ///
-    /// Returns
-    /// -------
-    /// tuple of float or None
-    ///     x, y and heading; None beyond the ends and in longer gaps.
-    #[pyo3(signature = (time, *, max_gap=1.0))]
-    fn pose_at(&self, time: f64, max_gap: f64) -> Option<(f64, f64, f64)> {
-        self.trajectory.pose_at(time, max_gap).as_ref().map(numbers)
-    }
-
-    fn __len__(&self) -> usize {
-        self.trajectory.len()
-    }
-
-    fn __repr__(&self) -> String {
-        let [first, last] = self.trajectory.span();
-        format!("<Trajectory of {} poses from {first} to {last} s>", self.trajectory.len())
-    }
-}
-
-/// Returns x, y and heading.
-fn numbers(pose: &Pose) -> (f64, f64, f64) {
-    let [x, y] = pose.position();
-    (x, y, pose.theta())
-}
-
 /// Returns warnings in words, with options as Python's arguments.
 fn words(warnings: &[Warning]) -> Vec<String> {
     in_words(warnings).iter().map(|text| in_python(text)).collect()
@@ -375,7 +311,7 @@ pub(crate) fn read_scans(
             (Frame::Robot, Some(mount)) => recorded.trajectory.mounted(mount).map_err(of_file)?,
             _ => recorded.trajectory,
         };
-        let trajectory = PyTrajectory { trajectory, warnings: Vec::new() };
+        let trajectory = PyTrajectory { trajectory, warnings: words(&recorded.warnings) };
         held.set_item(recorded.name, Py::new(py, trajectory)?)?;
     }
     let scans = scans.into_iter().map(|scan| Py::new(py, PyRangeScan(scan))).collect::<PyResult<_>>()?;

@@ -29,6 +29,7 @@ mod long_work;
 mod scan_map;
 mod sensors;
 mod tally;
+mod trajectory;
 mod ufuncs;
 
 use pyo3::prelude::*;
@@ -46,7 +47,7 @@ mod _native {
     use super::expected::{PyExpectedMap, expected_map};
 
     #[pymodule_export]
-    use super::files::{PyMap, PyRangeScan, PyScanLog, PyTrajectory, read_map, read_scans, read_trajectory};
+    use super::files::{PyMap, PyRangeScan, PyScanLog, read_map, read_scans, read_trajectory};
 
     #[pymodule_export]
     use super::limit::{PyLimit, limit_of};
@@ -59,6 +60,9 @@ mod _native {
 
     #[pymodule_export]
     use super::tally::{PyTally, mean_of, tally_of};
+    #[pymodule_export]
+    #[pymodule_export]
+    use super::trajectory::PyTrajectory;
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {

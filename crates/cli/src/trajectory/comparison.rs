@@ -3,9 +3,9 @@
 use super::common::{Candidate, Common};
 use super::labels::labels;
 use super::measure::{BLOCKS, Measured};
+use super::parting::Parting;
 use super::row::{Row, Used};
 use super::warnings;
-use super::weakest::Weakest;
 use crate::output::{Number, Record, Report, Value, short, table, with_notes, wrapped};
 use mean_information::scan::Difference;
 use mean_information_report::measures::Measures;
@@ -21,6 +21,8 @@ pub struct Comparison {
     pub used: Used,
     /// The rows, in the order in which the trajectories were given.
     pub rows: Vec<Row>,
+    /// The short name of the row with the most mean information.
+    pub best: Option<String>,
     /// The answer in a sentence, of two rows or more.
     pub verdict: Option<String>,
 }
@@ -47,10 +49,7 @@ impl Comparison {
                 measures: Measures::of_tally(own.size, &own.tally),
                 agreement: own.agreement,
                 revisited: own.revisited(),
-                // Of a difference that may be chance no part is to blame.
-                weakest: against(own, &measured[order[0]])
-                    .filter(is_clear)
-                    .and_then(|_| Weakest::of(common, measured, index, order[0])),
+                parting: Parting::of(common, index, order[0], BLOCKS).filter(|_| index != order[0]),
                 difference: if index == 0 { None } else { against(&measured[0], own) },
                 warnings: candidate.warnings.clone(),
             };
@@ -62,14 +61,14 @@ impl Comparison {
         let rows: Vec<_> = rows.collect();
         let mut used = used;
         used.warnings.extend(warnings::of_scans(&used, common.silent));
+        let names = labels(&candidates.iter().map(|of| of.name.clone()).collect::<Vec<_>>());
         let verdict = match *order {
-            [best, next, ..] => against(&measured[next], &measured[best]).map(|difference| {
-                let names = labels(&candidates.iter().map(|of| of.name.clone()).collect::<Vec<_>>());
-                verdict([&names[best], &names[next]], &difference)
-            }),
+            [best, next, ..] => against(&measured[next], &measured[best])
+                .map(|difference| verdict([&names[best], &names[next]], &difference)),
             _ => None,
         };
-        Self { used, rows, verdict }
+        let best = order.first().map(|&best| names[best].clone());
+        Self { used, rows, best, verdict }
     }
 
     /// Returns short names of the rows.
@@ -87,10 +86,11 @@ impl Comparison {
         of_log.chain(of_rows)
     }
 
-    /// Says where each trajectory but the best is worst, with its name.
-    pub(super) fn worst(&self) -> Vec<(&str, String)> {
-        let worst = |row: &'_ Row| row.weakest.as_ref().map(Weakest::in_words);
-        self.rows.iter().filter_map(|row| Some((row.name.as_str(), worst(row)?))).collect()
+    /// Says where each trajectory but the best parts from that one, with its name.
+    pub(super) fn partings(&self) -> Vec<(&str, String)> {
+        let Some(best) = &self.best else { return Vec::new() };
+        let parting = |row: &'_ Row| row.parting.as_ref().map(|parting| parting.in_words(best));
+        self.rows.iter().filter_map(|row| Some((row.name.as_str(), parting(row)?))).collect()
     }
 
     /// Says what the maps were made of, in words.
@@ -117,14 +117,14 @@ fn is_clear(difference: &Difference) -> bool {
 /// Tells which of the two best is better.
 fn verdict([best, next]: [&str; 2], difference: &Difference) -> String {
     let (value, error) = (difference.value(), difference.standard_error());
+    let times = if error > 0.0 { format!(", {:.1} standard errors", value / error) } else { String::new() };
     if is_clear(difference) {
-        let times =
-            if error > 0.0 { format!(", {:.1} standard errors", value / error) } else { String::new() };
         format!("{best} makes the most consistent map: {value:.4} bits per cell above {next}{times}")
     } else {
-        format!(
-            "{best} and {next} are not told apart by these scans: {value:.4} bits per cell with a standard error of {error:.4}"
-        )
+        let ahead =
+            format!(": {best} is ahead by {value:.4} bits per cell{times}, where {CLEAR:.1} would tell");
+        let ahead = if value > 0.0 { ahead } else { String::new() };
+        format!("{best} and {next} are not told apart by these scans{ahead}")
     }
 }
 
@@ -192,10 +192,10 @@ impl Report for Comparison {
     fn table(&self) -> String {
         let made_of = self.made_of();
         let made_of = made_of.iter().map(|note| (self.used.log.as_str(), note.as_str()));
-        let worst = self.worst();
-        let worst = worst.iter().map(|(name, worst)| (*name, worst.as_str()));
+        let partings = self.partings();
+        let partings = partings.iter().map(|(name, parting)| (*name, parting.as_str()));
         let text = table(Row::HEADS, self.rows.iter().map(|row| row.cells(&self.used)));
-        let text = with_notes(text, made_of.chain(self.notes()).chain(worst));
+        let text = with_notes(text, made_of.chain(self.notes()).chain(partings));
         self.verdict.iter().fold(text, |text, verdict| text + &one_line(verdict) + "\n")
     }
 

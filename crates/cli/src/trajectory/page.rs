@@ -22,15 +22,15 @@ impl Pictures<'_> {
         let note = |(name, note): (&str, &str)| {
             format!("<li><strong>{}</strong>: {}.</li>\n", text(name), text(note))
         };
-        let worst = |(name, worst): (&str, String)| {
-            format!("<p><strong>{}</strong> is {}.</p>\n", text(name), text(&worst))
+        let parting = |(name, parting): (&str, String)| {
+            format!("<p><strong>{}</strong> {}.</p>\n", text(name), text(&parting))
         };
         let answer = |answer: &String| format!("<p class=\"answer\">{}.</p>\n", text(answer));
         let log = text(&used.log);
         let made_of: String = comparison.made_of().iter().map(line).collect();
         let notes: String = comparison.notes().map(note).collect();
         let notes = if notes.is_empty() { notes } else { format!("<ul class=\"notes\">\n{notes}</ul>\n") };
-        let worst: String = comparison.worst().into_iter().map(worst).collect();
+        let partings: String = comparison.partings().into_iter().map(parting).collect();
         let answer: String = comparison.verdict.iter().map(answer).collect();
         let heads: String = Row::HEADS.iter().enumerate().map(|(k, head)| th(k, head)).collect();
         let rows: String = comparison.rows.iter().map(|row| tr(&row.cells(used))).collect();
@@ -60,7 +60,7 @@ where a trajectory is wrong, scans contradict one another.</p>
 agree, and falls where new ground is seen once, or where a trajectory went wrong: look where a curve leaves the
 first.</figcaption>
 </figure>
-{worst}</section>
+{partings}</section>
 <section id="maps">
 <h2>Where</h2>
 <figure>

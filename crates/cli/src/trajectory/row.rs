@@ -1,7 +1,7 @@
 //! The row of a trajectory, and the scans that all rows share.
 
+use super::parting::Parting;
 use super::setup::Setup;
-use super::weakest::Weakest;
 use mean_information::scan::Difference;
 use mean_information_report::measures::Measures;
 
@@ -39,8 +39,8 @@ pub struct Row {
     pub revisited: u64,
     /// The difference from the first row; `None` of the first, and where there is one scan alone.
     pub difference: Option<Difference>,
-    /// The part of the log where it is worst, of a row that is not the best.
-    pub weakest: Option<Weakest>,
+    /// The part of the log where it parts from the best one, of a row that is not the best.
+    pub parting: Option<Parting>,
     /// The signs that the row means less than it seems.
     pub warnings: Vec<String>,
 }

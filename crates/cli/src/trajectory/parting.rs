@@ -1,0 +1,79 @@
+//! Where a trajectory parts from the best one: the stretch of the log in which the two move most differently.
+
+use super::common::Common;
+use mean_information::scan::{Pose, blocks};
+use std::f64::consts::{PI, TAU};
+
+/// The lever of a turn, in metres: a radian counts as much as this way.
+const LEVER: f64 = 5.0;
+
+/// The share of all differences from which on one part of the log is named: five times that of each of 20 equal parts.
+const CONCENTRATED: f64 = 0.25;
+
+/// The part of the log in which a trajectory moves most differently from another one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parting {
+    /// The times of its first scan and of the one after its last, in seconds after the first scan of all.
+    pub times: [f64; 2],
+    /// The mean of the other one's positions there, in metres.
+    pub place: [f64; 2],
+    /// By how much the motions over these scans differ: metres, and radians.
+    pub by: [f64; 2],
+    /// The share of the differences over all parts, from 0 to 1; a radian counts as five metres.
+    pub share: f64,
+}
+
+impl Parting {
+    /// Finds the part, of `parts` equal ones, in which trajectory `own` moves most differently from trajectory `best`; `None`
+    /// if they move alike.
+    pub(super) fn of(common: &Common<'_>, own: usize, best: usize, parts: usize) -> Option<Self> {
+        let (own, best) = (&common.poses[own], &common.poses[best]);
+        let last = common.scans.len() - 1;
+        // Up to the first scan of the next part, so that no step is left out.
+        let parts: Vec<_> =
+            blocks(common.scans.len(), parts).map(|scans| [scans.start, scans.end.min(last)]).collect();
+        let by = |&[from, to]: &[usize; 2]| {
+            let [a, b] = [own, best].map(|poses| motion(&poses[from], &poses[to]));
+            [libm::hypot(a[0] - b[0], a[1] - b[1]), libm::fabs(half_turn(a[2] - b[2]))]
+        };
+        let weight = |[metres, radians]: [f64; 2]| metres + LEVER * radians;
+        let all: f64 = parts.iter().map(by).map(weight).sum();
+        let most = parts.iter().max_by(|a, b| weight(by(a)).total_cmp(&weight(by(b))))?;
+        let by = by(most);
+        let [from, to] = *most;
+        let positions = &best[from..=to];
+        let place = [0, 1].map(|axis: usize| {
+            positions.iter().map(|pose| pose.position()[axis]).sum::<f64>() / positions.len() as f64
+        });
+        let times = most.map(|scan| common.scans[scan].time() - common.scans[0].time());
+        (all > 0.0).then(|| Self { times, place, by, share: weight(by) / all })
+    }
+
+    /// Says in words where the trajectory parts from that of the name `best`.
+    pub(super) fn in_words(&self, best: &str) -> String {
+        let Self { times: [from, to], place: [x, y], by: [metres, radians], share } = self;
+        let percent = 100.0 * share;
+        if *share < CONCENTRATED {
+            return format!(
+                "moves differently from {best} all along the log: no part of 20 has more than {percent:.0} % of it"
+            );
+        }
+        format!(
+            "moves differently from {best} most from {from:.1} to {to:.1} s after the first scan, there about x {x:.1} m, y \
+             {y:.1} m: by {metres:.2} m and {:.1} degrees, {percent:.0} % of all",
+            radians.to_degrees()
+        )
+    }
+}
+
+/// Returns the motion from one pose to another, as seen from the first: forwards, to the left, and the turn in radians.
+fn motion(from: &Pose, to: &Pose) -> [f64; 3] {
+    let [dx, dy] = [0, 1].map(|axis: usize| to.position()[axis] - from.position()[axis]);
+    let (sin, cos) = libm::sincos(from.theta());
+    [cos * dx + sin * dy, cos * dy - sin * dx, to.theta() - from.theta()]
+}
+
+/// Returns a turn between half a turn to the right and half a turn to the left.
+fn half_turn(turn: f64) -> f64 {
+    (turn + PI).rem_euclid(TAU) - PI
+}

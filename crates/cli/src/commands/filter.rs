@@ -75,7 +75,10 @@ impl Filter {
                 let words = format!("the laser at {x}, {y} m and {} rad on the robot", mount.theta());
                 (log.mounted(&mount).map_err(|error| error.in_file(path))?, words)
             }
-            None => (log, "poses are those of the laser".to_owned()),
+            // GMapping writes the robot's poses, and not where its laser is.
+            None => {
+                (log, "poses are taken for those of the laser; --mount X,Y,YAW says where it is".to_owned())
+            }
         };
         let progress = Progress::new(log.steps.len());
         progress.begin(&format!("scans of {} particles", log.particles()));

@@ -16,6 +16,7 @@ use mean_information::Error;
 use mean_information::scan::{Pose, ScanMap};
 use mean_information_files::scans::{Frame, ScanLog, ScanOptions, TimeField};
 use mean_information_files::{bags, read_selected_scans, read_trajectory};
+use mean_information_report::submaps::is_state;
 use mean_information_report::words::in_words;
 use std::num::NonZero;
 use std::path::PathBuf;
@@ -153,11 +154,12 @@ impl Arguments {
         Ok(match (self.association.mount, log.mount) {
             (Some(mount), _) => (mount, format!("the laser at {}, by --mount", in_words(&mount))),
             (None, Some(mount)) if mount != nowhere => {
-                let words = format!(
-                    "the laser at {}, by the log; --mount 0,0,0 if POSES are its own",
-                    in_words(&mount)
-                );
+                let advice = if self.poses.is_empty() { "" } else { "; --mount 0,0,0 if POSES are its own" };
+                let words = format!("the laser at {}, by the log{advice}", in_words(&mount));
                 (mount, words)
+            }
+            (None, _) if is_state(&self.scans) => {
+                (nowhere, "beams are taken from the origin of the tracking frame".to_owned())
             }
             (None, _) => (nowhere, "poses are those of the laser".to_owned()),
         })

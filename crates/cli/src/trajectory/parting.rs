@@ -17,7 +17,7 @@ pub struct Parting {
     pub times: [f64; 2],
     /// The mean of the other one's positions there, in metres.
     pub place: [f64; 2],
-    /// By how much the motions over these scans differ: metres, and radians.
+    /// The difference of the two motions over these scans: metres, and radians.
     pub by: [f64; 2],
     /// The share of the differences over all parts, from 0 to 1; a radian counts as five metres.
     pub share: f64,

@@ -130,6 +130,11 @@ fn is_repeated(header: &Header<'_>, before: Option<f64>) -> Result<bool, Error> 
     Ok(false)
 }
 
+/// Tells whether a topic of this name is listened to for transforms: not `/tf_old`, to which another run was renamed.
+fn is_tf(topic: &str) -> bool {
+    matches!(topic.rsplit('/').next(), Some("tf" | "tf_static"))
+}
+
 /// Returns the namespace of a topic of transforms, and whether they are static.
 fn namespace(topic: &str) -> (&str, bool) {
     let (before, name) = topic.rsplit_once('/').unwrap_or(("", topic));
@@ -150,7 +155,7 @@ impl Visitor for Recording<'_> {
             self.pose_topics.insert(name.clone());
             return self.selection.pose_topics.contains(name);
         }
-        TF_KINDS.contains(&&**kind)
+        TF_KINDS.contains(&&**kind) && is_tf(name)
     }
 
     fn take(&mut self, message: &Message<'_>) -> Result<(), Error> {

@@ -33,13 +33,15 @@ impl<'a> ScanMessage<'a> {
         // Memory follows the numbers, not the count.
         let mut ranges = Vec::new();
         for _ in 0..fields.u32()? {
-            ranges.push(f64::from(fields.f32()?));
+            let range = f64::from(fields.f32()?);
+            // REP 117: finite beyond the greatest range is an error code, such as that range and a metre; infinity is no return.
+            ranges.push(if range.is_finite() && range > greatest { f64::NAN } else { range });
         }
         let duration = f64::from(time_increment) * ranges.len().saturating_sub(1) as f64;
         if ranges.is_empty() {
             return Ok(Self { header, scan: None, duration });
         }
-        let limits = [least, options.maximum_range.unwrap_or(greatest)];
+        let limits = [least, options.maximum_range.map_or(greatest, |wanted| wanted.min(greatest))];
         let scan = RangeScan::new(header.time, Bearings::Even { start, increment }, ranges, limits);
         Ok(Self { header, scan: Some(scan.map_err(|error| error.at(place))?), duration })
     }

@@ -69,6 +69,8 @@ impl Nodes {
         }
         let points = cloud.in_plane().map_err(of)?;
         let ticks = i128::from(ticks.cast_signed()) - UNIX_EPOCH;
+        // Beside its points a node takes as much as 32 numbers.
+        self.kept.add(32)?;
         let node = Node { time: seconds(ticks * STEP_NS), upright, local, points };
         if self.matched.insert((trajectory, index), node).is_some() {
             return Err(of(Error::new(ErrorKind::Format, "is there twice")));

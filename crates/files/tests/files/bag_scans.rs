@@ -62,9 +62,10 @@ fn both_orders_of_bytes_and_both_serialisations_of_all_messages() {
         let [scan] = &*log.scans else { panic!("{:?}", log.scans) };
         assert_eq!((scan.time(), scan.limits()), (5.5, [0.0625, 8.0]));
         assert_eq!([0, 1, 7].map(|beam| scan.bearings().at(beam)), [1.0, 0.75, -0.75]);
-        // The table of `scans`: REP 117, and the greatest range as no return.
+        // The table of `scans`: REP 117, by which 9 beyond 8 is an error, but the greatest range as no return.
         let [none, wrong] = [Reading::NoReturn, Reading::Invalid];
-        let expected = [Reading::Return(1.5), none, wrong, wrong, wrong, none, none, Reading::Return(0.0625)];
+        let expected =
+            [Reading::Return(1.5), none, wrong, wrong, wrong, wrong, none, Reading::Return(0.0625)];
         assert_eq!(scan.readings().collect::<Vec<_>>(), expected);
         assert_eq!(log.warnings, [Warning::BeamsApart { seconds: 7.0 / 64.0 }]);
         assert_pose(&log.mount.unwrap(), [0.5, 0.0, 0.0]);
@@ -79,6 +80,22 @@ fn both_orders_of_bytes_and_both_serialisations_of_all_messages() {
             assert_eq!(held.warnings, []);
         }
     }
+}
+
+#[test]
+fn transforms_of_another_run_are_passed_over() {
+    const OLD: u16 = 7;
+    let topics = [&TOPICS[..], &[(OLD, "/tf_old", TOPICS[1].2)]].concat();
+    let old = PLAIN.tf(
+        OLD,
+        &[(20, "odom", "base", [70.0, 2.0, 0.0], AHEAD), (22, "odom", "base", [80.0, 2.0, 0.0], LEFT)],
+    );
+    let messages = [PLAIN.scan(22), PLAIN.moving(), PLAIN.mount()];
+    let poses = |messages: &[(u16, Vec<u8>)]| {
+        let log = log_of(&mcap_of("cdr", &topics, messages), &Selection::default()).unwrap();
+        log.trajectories.iter().flat_map(|held| held.trajectory.poses().to_vec()).collect::<Vec<_>>()
+    };
+    assert_eq!(poses(&[&messages[..], &[old]].concat()), poses(&messages));
 }
 
 #[test]

@@ -56,7 +56,7 @@ fn a_real_state_has_the_scans_of_another_decoder() {
     assert!((first.0 - 1.870_732).abs() < 1e-6 && (first.1 + 2.156_427).abs() < 1e-6, "{first:?}");
     assert_eq!(
         [0, 859].map(|scan: usize| log.scans[scan].time()),
-        [1_705_573_668.914_947, 1_705_573_766.716_700_3]
+        [1_705_573_668.914_947, 1_705_573_766.716_700_5]
     );
     let names: Vec<_> = log.trajectories.iter().map(|held| (&*held.name, held.trajectory.len())).collect();
     assert_eq!(names, [("local", 860), ("global", 860)]);

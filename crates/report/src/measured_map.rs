@@ -82,8 +82,7 @@ impl MeasuredMap {
         Ok(vec![Self::of_contents(path, map, &sums)])
     }
 
-    /// Measures a map whose cells were kept.
-    pub fn of_map(path: &Path, map: Map) -> Self {
+    fn of_map(path: &Path, map: Map) -> Self {
         let measures = Measures::of(&map.cells).noticing(&map.warnings);
         Self::new(path, map, measures)
     }
@@ -93,7 +92,8 @@ impl MeasuredMap {
         Self::new(path, map, measures)
     }
 
-    fn new<C>(path: &Path, map: Map<C>, measures: Measures) -> Self {
+    /// Creates the row of a map that was measured.
+    pub fn new<C>(path: &Path, map: Map<C>, measures: Measures) -> Self {
         let mut warnings = in_words(&map.warnings);
         warnings.extend(measures.not_meaningful.map(|why| why.warning().to_owned()));
         let Map { resolution, files, .. } = map;

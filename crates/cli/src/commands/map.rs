@@ -106,7 +106,7 @@ impl Arguments {
         let map = self.drawable(path, &reading.options)?;
         let measures = Measures::of(&map.cells).noticing(&map.warnings);
         let picture = drawn(path, &map, &measures)?;
-        Ok((vec![MeasuredMap::of_map(path, map)], Some(picture)))
+        Ok((vec![MeasuredMap::new(path, map, measures)], Some(picture)))
     }
 
     /// Reads a map with its cells, of a bag the last one.

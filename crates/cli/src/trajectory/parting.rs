@@ -29,23 +29,22 @@ impl Parting {
     pub(super) fn of(common: &Common<'_>, own: usize, best: usize, parts: usize) -> Option<Self> {
         let (own, best) = (&common.poses[own], &common.poses[best]);
         let last = common.scans.len() - 1;
-        // Up to the first scan of the next part, so that no step is left out.
-        let parts: Vec<_> =
-            blocks(common.scans.len(), parts).map(|scans| [scans.start, scans.end.min(last)]).collect();
-        let by = |&[from, to]: &[usize; 2]| {
+        let by = |[from, to]: [usize; 2]| {
             let [a, b] = [own, best].map(|poses| motion(&poses[from], &poses[to]));
             [libm::hypot(a[0] - b[0], a[1] - b[1]), libm::fabs(half_turn(a[2] - b[2]))]
         };
         let weight = |[metres, radians]: [f64; 2]| metres + LEVER * radians;
-        let all: f64 = parts.iter().map(by).map(weight).sum();
-        let most = parts.iter().max_by(|a, b| weight(by(a)).total_cmp(&weight(by(b))))?;
-        let by = by(most);
-        let [from, to] = *most;
+        // Up to the first scan of the next part, so that no step is left out.
+        let ends = blocks(common.scans.len(), parts).map(|scans| [scans.start, scans.end.min(last)]);
+        let parts: Vec<_> = ends.map(|ends| (ends, by(ends))).collect();
+        let all: f64 = parts.iter().map(|&(_, by)| weight(by)).sum();
+        let most = parts.iter().max_by(|(_, a), (_, b)| weight(*a).total_cmp(&weight(*b)));
+        let &([from, to], by) = most?;
         let positions = &best[from..=to];
         let place = [0, 1].map(|axis: usize| {
             positions.iter().map(|pose| pose.position()[axis]).sum::<f64>() / positions.len() as f64
         });
-        let times = most.map(|scan| common.scans[scan].time() - common.scans[0].time());
+        let times = [from, to].map(|scan| common.scans[scan].time() - common.scans[0].time());
         (all > 0.0).then(|| Self { times, place, by, share: weight(by) / all })
     }
 

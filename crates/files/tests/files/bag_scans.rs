@@ -1,6 +1,8 @@
 //! Scans of bags with the transforms and poses beside them, put together byte by byte.
 
-use crate::scan_bag::{AHEAD, AMCL, Bag, HALF, LEFT, ODOM, PLAIN, POSE, SCAN, STATIC, TF, TOPICS};
+use crate::scan_bag::{
+    AHEAD, AMCL, Bag, HALF, LEFT, ODOM, PLAIN, POSE, SCAN, STATIC, TF, TOPICS, assert_pose,
+};
 use mean_information::scan::Pose;
 use mean_information_files::bags::{read_stream, scans_of};
 use mean_information_files::scans::{Reading, ScanLog, ScanOptions, Selection};
@@ -29,13 +31,6 @@ fn refused(messages: &[(u16, Vec<u8>)], selection: &Selection) -> (Error, String
     let error = log_with("cdr", messages, selection).unwrap_err();
     let line = error.to_string();
     (error, line)
-}
-
-/// Asserts a pose within a dozen roundings.
-fn assert_pose(pose: &Pose, expected: [f64; 3]) {
-    let [x, y] = pose.position();
-    let apart = [x - expected[0], y - expected[1], pose.theta() - expected[2]];
-    assert!(apart.iter().all(|x| x.abs() < 1e-14), "{pose:?} {expected:?}");
 }
 
 fn named(frames: &[&str], pose_topics: &[&str]) -> Selection {

@@ -1,5 +1,6 @@
 //! The scans of Cartographer's saved states: a real one by the figures of another decoder, and such as tests put together.
 
+use crate::scan_bag::{AHEAD, HALF, LEFT, assert_pose};
 use mean_information::scan::Pose;
 use mean_information_files::pbstream::read_scans;
 use mean_information_files::scans::{RangeScan, Reading, ScanLog, ScanOptions, Selection};
@@ -11,9 +12,6 @@ use mean_information_test_support::formats::shared_data;
 
 /// 7.5 s after the beginning of 1970.
 const TIME: u64 = 621_355_968_075_000_000;
-const HALF: f64 = std::f64::consts::FRAC_1_SQRT_2;
-const AHEAD: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
-const LEFT: [f64; 4] = [0.0, 0.0, HALF, HALF];
 /// (0.003, 0.004), and (-1.024, 0.001): two blocks.
 const POINTS: [i32; 10] = [1, 0, 0, 0, 3 + (4 << 10), 1, -1, 0, 0, 1 << 10];
 
@@ -25,12 +23,6 @@ fn refused(records: &[Vec<u8>]) -> (Error, String) {
     let error = log(&state(records), &Selection::default()).unwrap_err();
     let line = error.to_string();
     (error, line)
-}
-
-fn assert_pose(pose: &Pose, expected: [f64; 3]) {
-    let [x, y] = pose.position();
-    let apart = [x - expected[0], y - expected[1], pose.theta() - expected[2]];
-    assert!(apart.iter().all(|x| x.abs() < 1e-14), "{pose:?} {expected:?}");
 }
 
 /// A state of two nodes of two trajectories.

@@ -1,5 +1,6 @@
 //! The messages of a bag with a robot and its laser.
 
+use mean_information::scan::Pose;
 use mean_information_test_support::formats::bag::{Writer, mcap_of};
 
 pub(crate) const SCAN: u16 = 1;
@@ -20,6 +21,13 @@ pub(crate) const HALF: f64 = std::f64::consts::FRAC_1_SQRT_2;
 pub(crate) const AHEAD: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
 /// A quarter turn to the left.
 pub(crate) const LEFT: [f64; 4] = [0.0, 0.0, HALF, HALF];
+
+/// Asserts a pose within a dozen roundings.
+pub(crate) fn assert_pose(pose: &Pose, expected: [f64; 3]) {
+    let [x, y] = pose.position();
+    let apart = [x - expected[0], y - expected[1], pose.theta() - expected[2]];
+    assert!(apart.iter().all(|x| x.abs() < 1e-14), "{pose:?} {expected:?}");
+}
 
 /// Seconds and nanoseconds of quarters of a second.
 fn stamp(quarters: u32) -> [u32; 2] {

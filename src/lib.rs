@@ -93,6 +93,8 @@
 //! compiles a function for several vector units.
 // Unit tests have the standard library in any case.
 #![cfg_attr(not(any(test, feature = "std")), no_std)]
+// docs.rs says of each item which feature it takes.
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 extern crate alloc;
 #[cfg(any(test, feature = "std"))]

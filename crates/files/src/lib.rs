@@ -57,6 +57,8 @@
 //!
 //! The feature `clap` makes [`Semantics`], [`Mode`], [`ArrayEncoding`], [`scans::NoReturn`] and [`scans::TimeField`] values
 //! of a command line's options.
+// docs.rs says of each item which feature it takes.
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 pub mod bags;
 mod cells;

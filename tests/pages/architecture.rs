@@ -28,7 +28,9 @@ fn the_tree_is_the_tree() {
 fn the_crate_page_shows_the_public_modules() {
     let source = read("src/lib.rs");
     let page = head(&source);
-    let shown = rows(&page).into_iter().map(|row| {
+    // The table of the modules; that of who begins where has readers.
+    let modules = rows(&page).into_iter().filter(|row| row[0].starts_with('['));
+    let shown = modules.map(|row| {
         assert!(!row[1].is_empty(), "{row:?}: holds what?");
         row[0].trim_matches(['[', ']', '`'])
     });

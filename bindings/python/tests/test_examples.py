@@ -24,7 +24,9 @@ def run(name, *arguments, monkeypatch):
 def test_a_map_and_a_particle_filter(maps, monkeypatch, capsys):
     run("measure_map.py", maps / "room.yaml", monkeypatch=monkeypatch)
     tally = mi.read_map(maps / "room.yaml").tally
-    assert f"{tally.mean_information:.4f} bits per observed cell" in capsys.readouterr().out
+    printed = capsys.readouterr().out
+    assert f"{tally.mean_information:.4f} bits per observed cell" in printed
+    assert f"```text\n{printed}```" in (maps.parent / "README.md").read_text(encoding="utf-8")
     run("particle_filter.py", monkeypatch=monkeypatch)
     lines = capsys.readouterr().out.splitlines()[1:]
     emmi = [float(line.split("EMMI ")[1].split(",")[0]) for line in lines]

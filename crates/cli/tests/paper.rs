@@ -2,12 +2,19 @@
 
 mod common;
 
+use common::schema::assert_every_key;
 use common::*;
 use serde_json::Value;
 use std::fs;
 
 const FIGURES: [&str; 6] =
     ["figure-1.svg", "figure-2.svg", "figure-3.svg", "figure-4.svg", "figure-5.svg", "loop-closure.svg"];
+
+/// The README in one line.
+fn readme() -> String {
+    let readme = read(concat!(env!("CARGO_MANIFEST_DIR"), "/../../README.md"));
+    text(&readme).split_whitespace().collect::<Vec<_>>().join(" ")
+}
 
 /// Half a minute with optimization, minutes without; a part of it is a unit test of `src/paper/mod.rs`.
 #[test]
@@ -21,6 +28,7 @@ fn the_report_is_reproduced() {
     let table = stdout(&["paper", "--out", &out]);
     let json = stdout(&["paper", "--format", "json", "--out", &folder.text_path("again")]);
     let json: Value = serde_json::from_str(&json).unwrap();
+    assert_every_key("paper", std::slice::from_ref(&json));
 
     // The same bytes on every run.
     let mut names: Vec<_> =
@@ -46,6 +54,7 @@ fn the_report_is_reproduced() {
     let verdicts = |verdict: &str| claims.iter().filter(|claim| claim["verdict"] == verdict).count();
     assert_eq!((verdicts("fail"), verdicts("corrected")), (0, 6));
     assert_eq!(verdicts("pass"), 15, "{claims:?}");
+    assert!(readme().contains("its 21 claims, each with what was measured: 15 pass, 6 are corrected."));
     let measured = |part: &str| {
         let claim = claims.iter().find(|claim| claim["claim"].as_str().unwrap().contains(part)).unwrap();
         claim["measured"].as_str().unwrap().to_owned()

@@ -73,6 +73,28 @@ fn the_readme_shows_what_is_printed() {
     assert!(text(&read(format!("{ROOT}/README.md"))).contains(&shown), "README.md lacks\n{shown}");
 }
 
+/// `meaninfo trajectory maps/room.log maps/room.true.tum maps/room.odometry.tum --maps docs/figures/trajectories.svg`, run in
+/// the root, draws the picture on top of the README again, byte by byte.
+#[test]
+fn the_picture_on_top_of_the_readme_is_drawn_again() {
+    let folder = Folder::new();
+    let picture = folder.text_path("trajectories.svg");
+    let files = ["maps/room.log", "maps/room.true.tum", "maps/room.odometry.tum"];
+    let run = meaninfo().current_dir(ROOT).arg("trajectory").args(files).args(["--maps", &picture]).output();
+    let printed = run.unwrap().stdout;
+    let [drawn, shown] = [picture, format!("{ROOT}/docs/figures/trajectories.svg")].map(read);
+    assert!(drawn == shown, "docs/figures/trajectories.svg is not what --maps draws");
+    let document = roxmltree::Document::parse(text(&shown)).unwrap();
+    let texts: Vec<_> = document.descendants().filter_map(|node| node.text()).collect();
+    for words in ["room.true.tum", "0.9605 bits per cell", "0.9340 bits per cell: -0.0265 ± 0.0071"] {
+        assert!(texts.contains(&words), "{words}: {texts:?}");
+    }
+    // Its last line is that of the README's beginning.
+    let readme = read(format!("{ROOT}/README.md"));
+    let last = text(&printed).lines().last().unwrap();
+    assert!(text(&readme).contains(&format!("```text\n{last}\n```")), "README.md lacks {last}");
+}
+
 /// `cargo run --release -- map maps/room.yaml --heat-map docs/room.png` makes the picture again.
 #[test]
 fn the_picture_of_the_readme_is_the_heat_map() {

@@ -3,6 +3,7 @@
 mod common;
 
 use approx::assert_abs_diff_eq;
+use common::schema::assert_order;
 use common::*;
 use mean_information::room::CartesianRoom;
 use mean_information::sensor::GaussianSensor;
@@ -36,17 +37,7 @@ fn the_result_says_what_was_made() {
     let prefix = folder.text_path("map");
     let arguments: Vec<_> = SMALL.iter().chain(&["--out", &*prefix, "--seed", "5"]).copied().collect();
     let text = stdout(&arguments);
-    assert_eq!(
-        keys(&text, 2),
-        [
-            &["map", "image", "array", "log", "true_trajectory", "odometry_trajectory"][..],
-            &["room", "drift", "seed", "beams", "range_max_m", "sigma_m", "noise_m"],
-            &["scans", "scan_beams", "odometry_drift"],
-            &MEASURE_KEYS,
-            &["quantisation", "mean_information_of_image", "mean_information_of_image_hex", "poses"],
-        ]
-        .concat()
-    );
+    assert_order(&text, 2, "simulate", "");
     let json: Value = serde_json::from_str(&text).unwrap();
     assert_twins(&json, 5);
     assert_eq!((&json["room"], &json["seed"], &json["noise_m"]), (&"study".into(), &5.into(), &0.05.into()));

@@ -60,6 +60,7 @@ fn usage_errors_are_one_line() {
         (&["map", map, "--max-cells", "-3"], "-3"),
         (&["map", map, "--heat-map", "a.svg"], ".png"),
         (&["map", map, map, "--heat-map", "a.png"], "one map"),
+        (&["trajectory", map, "--maps", "a.png"], ".svg"),
         (&["sweep", map, map], "unexpected"),
         (&["sweep", map, "--plot", "a.pdf"], ".svg or .png"),
         (&["sweep", map, "--plot", "svg"], ".svg or .png"),

@@ -21,12 +21,18 @@ pub const NEAREST: f64 = 0.5;
 #[serde(try_from = "u64")]
 pub struct Version;
 
+impl Version {
+    /// The one that is read.
+    pub const NUMBER: u64 = 1;
+}
+
 impl TryFrom<u64> for Version {
     type Error = String;
 
     fn try_from(version: u64) -> Result<Self, String> {
-        let refused = || format!("version {version} is not known: this program reads version 1");
-        (version == 1).then_some(Self).ok_or_else(refused)
+        let refused =
+            || format!("version {version} is not known: this program reads version {}", Self::NUMBER);
+        (version == Self::NUMBER).then_some(Self).ok_or_else(refused)
     }
 }
 

@@ -2,10 +2,12 @@
 
 mod bag;
 mod check;
+mod completions;
 mod converge;
 mod emmi;
 mod filter;
 mod limit;
+mod man;
 mod map;
 mod page;
 mod paper;
@@ -14,6 +16,7 @@ mod sensor;
 mod simulate;
 mod sweep;
 mod trajectory;
+mod version;
 
 use crate::failure::Failure;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
@@ -37,12 +40,17 @@ impl Arguments {
     pub fn of<A: Into<OsString> + Clone>(
         arguments: impl IntoIterator<Item = A>,
     ) -> Result<Self, clap::Error> {
+        let arguments: Vec<OsString> = arguments.into_iter().map(Into::into).collect();
         // A negative number is the value of its option, whose own message says what is allowed.
         let option = |arg: clap::Arg| {
             let takes_value = arg.get_action().takes_values() && !arg.is_positional();
             arg.allow_negative_numbers(takes_value)
         };
-        let command = Self::command().mut_subcommands(|command| command.mut_args(option));
+        let mut command = Self::command().mut_subcommands(|command| command.mut_args(option));
+        // Its vectors are counted, which takes a moment.
+        if arguments.iter().any(|argument| argument == "--version") {
+            command = command.long_version(version::long());
+        }
         Self::from_arg_matches(&command.try_get_matches_from(arguments)?)
     }
 }
@@ -78,6 +86,10 @@ pub enum Command {
     Port(port::Arguments),
     /// Runs an implementation in any language, a port, against the vectors: is it right, and if not, where and why.
     Check(Box<check::Arguments>),
+    /// A script for a shell that completes the words of this command.
+    Completions(completions::Arguments),
+    /// Manual pages of this command and of each of its commands.
+    Man(man::Arguments),
 }
 
 impl Command {
@@ -99,6 +111,8 @@ impl Command {
             Self::Page(arguments) => arguments.run(),
             Self::Port(arguments) => arguments.run(),
             Self::Check(arguments) => arguments.run(),
+            Self::Completions(arguments) => arguments.run(),
+            Self::Man(arguments) => arguments.run(),
         }
     }
 }

@@ -18,6 +18,11 @@ const PAGE: &str = include_str!(concat!(env!("OUT_DIR"), "/page.html"));
 /// The place of the maps in it.
 const NO_MAPS: &str = r#"<script type="application/json" id="maps">[]</script>"#;
 
+/// Tells whether this program was built with the page.
+pub(super) fn is_built_in() -> bool {
+    !PAGE.is_empty()
+}
+
 /// The arguments of `meaninfo page`.
 #[derive(Args, Debug)]
 pub struct Arguments {

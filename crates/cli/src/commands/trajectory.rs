@@ -37,6 +37,9 @@ pub struct Arguments {
     /// Draw the mean information against time, one curve a trajectory, to this SVG or PNG file.
     #[arg(long, value_name = "FILE.svg|png")]
     series: Option<PathBuf>,
+    /// Draw the map of each trajectory, with the path of the laser, all on one scale, to this SVG file.
+    #[arg(long, value_name = "FILE.svg")]
+    maps: Option<PathBuf>,
     /// Draw the information of every cell of each map to this PNG file.
     #[arg(long, value_name = "FILE.png")]
     heat_map: Option<PathBuf>,
@@ -89,6 +92,9 @@ impl Arguments {
         for picture in [&self.heat_map, &self.conflicts].into_iter().flatten() {
             plots::require_png(picture)?;
         }
+        if let Some(path) = &self.maps {
+            plots::require_svg(path)?;
+        }
         let mut files = Files::new();
         if let Some(folder) = &self.out {
             files.make_folder(folder)?;
@@ -104,7 +110,8 @@ impl Arguments {
         let is_page = self.out.is_some();
         let wanted = Wanted {
             series: is_page || series.is_some(),
-            pictures: is_page || self.heat_map.is_some() || self.conflicts.is_some(),
+            pictures: is_page
+                || [&self.maps, &self.heat_map, &self.conflicts].iter().any(|file| file.is_some()),
         };
         let measured = self.measured(&setup, &candidates, &common, wanted)?;
         let used = Used {
@@ -120,6 +127,9 @@ impl Arguments {
         let pictures = Pictures { comparison: &comparison, common: &common, measured: &measured };
         if let (Some(path), Some(picture)) = (&self.series, series) {
             files.add(path, pictures.series(picture)?);
+        }
+        if let Some(path) = &self.maps {
+            files.add(path, pictures.maps()?);
         }
         if let Some(path) = &self.heat_map {
             files.add(path, pictures.heat_maps()?);

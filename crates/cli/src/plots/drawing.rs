@@ -93,6 +93,17 @@ pub fn require_png(path: &Path) -> Result<(), Failure> {
     }
 }
 
+/// Refuses the name of a picture with text as text that does not end in `.svg`.
+///
+/// # Errors
+/// Such a name.
+pub fn require_svg(path: &Path) -> Result<(), Failure> {
+    match Picture::by_name(path) {
+        Ok(Picture::Svg) => Ok(()),
+        _ => Err(Failure::Usage(format!("{}: the name of this picture ends in .svg", path.display()))),
+    }
+}
+
 /// Returns what a picture calls a map: the name of its file, as much of it as fits and without the two characters that
 /// XML cannot hold.
 pub fn title(path: &Path) -> String {

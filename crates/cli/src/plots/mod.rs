@@ -23,7 +23,7 @@ mod sweep;
 pub use chart::{Chart, ChartPanel, Colour, Curve, Scale};
 pub use conflict_map::{ConflictMap, conflict_scale};
 pub use convergence::ConvergencePlot;
-pub use drawing::{Drawing, Picture, require_png, title};
+pub use drawing::{Drawing, Picture, require_png, require_svg, title};
 pub use heat_map::HeatMap;
 pub use marks::{Marks, Shape};
 pub use panels::{MapPanel, panels};

@@ -7,7 +7,7 @@ use crate::failure::Failure;
 use crate::output::Number;
 use crate::plots::{
     Chart, ChartPanel, Colour, ConflictMap, Curve, Drawing, HeatMap, MapPanel, Marks, Picture, Scale, Shape,
-    Svg, conflict_scale,
+    Sheet, Svg, conflict_scale, panels,
 };
 use mean_information::scan::Pose;
 
@@ -125,15 +125,40 @@ impl Pictures<'_> {
         ConflictMap::png_of_several(&maps)
     }
 
+    /// Draws the map of each trajectory with the path of the laser, on one scale of metres, in one SVG file; the numbers are those
+    /// of the table.
+    ///
+    /// # Errors
+    /// None is known.
+    pub fn maps(&self) -> Result<Vec<u8>, Failure> {
+        let mut maps = Vec::new();
+        for ((label, index), poses) in self.each().zip(&self.common.poses) {
+            let Some((grid, _)) = &self.measured[index].pictures else { continue };
+            let row = &self.comparison.rows[index];
+            let against = row.difference.as_ref().map_or(String::new(), |difference| {
+                format!(": {:+.4} ± {:.4}", difference.value(), difference.standard_error())
+            });
+            let panel = MapPanel::new(grid, &label, self.mean_in_words(index) + &against)?;
+            maps.push(panel.with_path(poses.iter().map(Pose::position).collect()));
+        }
+        let described = "The map of each trajectory, with the path of the laser.".to_owned();
+        Ok(Sheet::new(panels(&maps, 2), described).file().into_bytes())
+    }
+
+    /// Returns the mean information of a row as pictures have it.
+    fn mean_in_words(&self, index: usize) -> String {
+        let mean = self.comparison.rows[index].measures.mean_information;
+        format!("{:.4} bits per cell", mean.map_or(0.0, Number::widen))
+    }
+
     /// Returns the panels of a page: each trajectory's map beside its contradictions; and the scale of these, in nats.
     pub(super) fn panels(&self) -> Result<(Vec<MapPanel>, f64), Failure> {
         let mut panels = Vec::new();
         for ((label, index), conflicts) in self.each().zip(self.conflict_maps()) {
             let Some((grid, _)) = &self.measured[index].pictures else { continue };
-            let row = &self.comparison.rows[index];
-            let mean = row.measures.mean_information.map_or(0.0, Number::widen);
-            panels.push(MapPanel::new(grid, &label, format!("{mean:.4} bits per cell"))?);
-            panels.push(conflicts.panel("its contradictions", format!("agreement {:.4}", row.agreement))?);
+            let agreement = self.comparison.rows[index].agreement;
+            panels.push(MapPanel::new(grid, &label, self.mean_in_words(index))?);
+            panels.push(conflicts.panel("its contradictions", format!("agreement {agreement:.4}"))?);
         }
         Ok((panels, self.scale()))
     }

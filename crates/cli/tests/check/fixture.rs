@@ -1,5 +1,6 @@
 //! What the tests share: a few vectors, and runs of `meaninfo check`.
 
+use crate::common::schema::assert_schema;
 use crate::common::{Folder, meaninfo, read, text};
 use mean_information::Real;
 use mean_information::cell::information;
@@ -75,9 +76,10 @@ impl Vectors {
         table
     }
 
-    /// The verdict as JSON.
+    /// The verdict as JSON, which is as its schema says.
     pub(crate) fn json(&self, fault: &str, options: &[&str]) -> Value {
         let (_, json) = self.check(fault, &[&["--format", "json"], options].concat());
+        assert_schema("check", &json);
         serde_json::from_str(&json).unwrap()
     }
 

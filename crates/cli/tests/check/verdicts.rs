@@ -2,6 +2,7 @@
 
 use super::Test;
 use super::fixture::Vectors;
+use crate::common::schema::assert_every_key;
 use crate::common::{Folder, assert_twins, meaninfo, read, text};
 use serde_json::Value;
 use std::fs;
@@ -19,7 +20,14 @@ pub(crate) const TESTS: &[Test] = &[
     ("nothing_that_is_read_is_overwritten", nothing_that_is_read_is_overwritten),
     ("junit_has_every_test", junit_has_every_test),
     ("csv_and_json_have_the_same_rows", csv_and_json_have_the_same_rows),
+    ("every_key_of_the_schema_is_seen", every_key_of_the_schema_is_seen),
 ];
+
+/// A port with a mistake that is known, one with claims, and one that ends with an error.
+fn every_key_of_the_schema_is_seen() {
+    let vectors = Vectors::new();
+    assert_every_key("check", &["nats", "claims", "exits-3-at-stop"].map(|fault| vectors.json(fault, &[])));
+}
 
 fn a_right_port_passes() {
     let (status, table) = Vectors::new().check("none", &[]);

@@ -1,6 +1,8 @@
 //! What the tests of the command line share: maps made on the spot, and runs of `meaninfo`.
 #![allow(dead_code, reason = "each test file uses a part")]
 
+pub(crate) mod schema;
+
 use assert_cmd::Command;
 use assert_cmd::cargo::cargo_bin_cmd;
 use mean_information_report::hex_float;
@@ -14,11 +16,15 @@ pub(crate) fn meaninfo() -> Command {
     cargo_bin_cmd!("meaninfo")
 }
 
-/// What a run that must succeed prints.
+/// What a run that must succeed prints; JSON is as its schema says.
 pub(crate) fn stdout(arguments: &[&str]) -> String {
     let output = meaninfo().args(arguments).output().unwrap();
     assert_eq!((output.status.code(), text(&output.stderr)), (Some(0), ""));
-    text(&output.stdout).to_owned()
+    let printed = text(&output.stdout);
+    if let Some(name) = schema::schema_of(arguments).filter(|_| !printed.is_empty()) {
+        schema::assert_schema(name, printed);
+    }
+    printed.to_owned()
 }
 
 /// What a run that must be refused says: one line on stderr, nothing on stdout, exit status 2.
@@ -102,31 +108,6 @@ pub(crate) fn assert_twins(object: &Value, expected: usize) {
         assert_eq!(number.as_f64(), hex, "{twin}");
     }
 }
-
-/// The keys of a map's measures, in JSON that says more about the map.
-pub(crate) const MEASURE_KEYS: [&str; 15] = [
-    "width",
-    "height",
-    "resolution_m",
-    "mean_information",
-    "mean_information_hex",
-    "information_bits",
-    "information_bits_hex",
-    "entropy_bits",
-    "entropy_bits_hex",
-    "observed",
-    "unknown",
-    "free",
-    "occupied",
-    "observed_area_m2",
-    "observed_area_m2_hex",
-];
-
-/// Of these, the keys that follow the size.
-pub(crate) const KEYS_OF_CELLS: &[&str] = MEASURE_KEYS.split_at(3).1;
-
-/// Of these, the keys of the means and sums in bits.
-pub(crate) const KEYS_OF_BITS: &[&str] = KEYS_OF_CELLS.split_at(6).0;
 
 /// The rows that `meaninfo trajectory` prints as JSON.
 pub(crate) fn rows(arguments: &[&str]) -> Vec<Value> {

@@ -2,6 +2,7 @@
 
 mod refused;
 
+use crate::common::schema::{assert_order, required};
 use crate::common::*;
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use mean_information::expected::Hypotheses;
@@ -15,23 +16,6 @@ use mean_information_test_support::formats::shared_data;
 use serde_json::Value;
 use std::fs;
 use std::path::PathBuf;
-
-const KEYS: [&str; 14] = [
-    "emmi",
-    "emmi_hex",
-    "observed",
-    "information_bits",
-    "information_bits_hex",
-    "entropy_bits",
-    "entropy_bits_hex",
-    "mean_of_particles",
-    "mean_of_particles_hex",
-    "particles",
-    "particles_hex",
-    "observed_area_m2",
-    "observed_area_m2_hex",
-    "meaningful",
-];
 
 fn data() -> Option<PathBuf> {
     shared_data().map(|folder| folder.join("emmi"))
@@ -186,7 +170,7 @@ fn the_command_agrees_with_the_formula() {
     let folder = Folder::new();
     let arguments = small(&folder, &WEIGHTS);
     let text = stdout(&with(&arguments, &["--resolution", "0.5", "--format", "json"]));
-    assert_eq!(keys(&text, 2), [&KEYS[..], &["warnings"]].concat());
+    assert_order(&text, 2, "emmi", "");
     let found: Value = serde_json::from_str(&text).unwrap();
     let total: f64 = WEIGHTS.iter().sum();
     let mean = |k: usize| PARTICLES.iter().zip(WEIGHTS).map(|(p, w)| w * p[k]).sum::<f64>() / total;
@@ -238,7 +222,7 @@ fn csv_and_table_say_the_same_as_json() {
     let found = json(&with(&arguments, &["--format", "json"]));
     let csv_text = stdout(&with(&arguments, &["--format", "csv"]));
     let mut csv = csv::Reader::from_reader(csv_text.as_bytes());
-    assert_eq!(csv.headers().unwrap().iter().take(14).collect::<Vec<_>>(), KEYS);
+    assert_eq!(csv.headers().unwrap().iter().collect::<Vec<_>>(), required("emmi", ""));
     let row = csv.records().next().unwrap().unwrap();
     assert_eq!(row[0].parse::<f64>().ok(), found["emmi"].as_f64());
     assert_eq!(row[9].split("; ").count(), 3);

@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 use mean_information::map::Histogram;
 use mean_information::map::encoding::Percent;
-use mean_information_files::bags::{Change, MapSeries, Snapshot, read_bag};
+use mean_information_files::bags::{Change, MapSeries, MapTopic, Snapshot, read_bag};
 use mean_information_files::trajectory::seconds;
 use mean_information_files::{Counts, Options};
 use mean_information_report::measures::Measures;
@@ -32,31 +32,31 @@ pub struct Row {
 pub struct Series {
     /// The topic.
     pub topic: String,
-    /// The maps, in the order in which they were recorded.
+    /// The maps, in the order in which they stand in the bag.
     pub rows: Vec<Row>,
     /// The signs that the bag holds less than it seems.
     pub warnings: Vec<String>,
 }
 
 impl Series {
-    /// Measures the maps of `topic` in the bag at `path`. With `every`, in nanoseconds, a map that comes sooner after the
+    /// Measures the maps of a topic of the bag at `path`, which is read once. With `every`, in nanoseconds, a map that comes sooner after the
     /// one measured last is left out.
     ///
     /// # Errors
-    /// As the bag cannot be read, or has no message of the topic.
-    pub fn read(path: &Path, topic: &str, every: Option<u64>, options: &Options) -> Result<Self, Failure> {
+    /// As the bag cannot be read, does not say which topic is meant, or has no message of it.
+    pub fn read(
+        path: &Path,
+        topic: &MapTopic,
+        every: Option<u64>,
+        options: &Options,
+    ) -> Result<Self, Failure> {
         let mut chosen = Chosen { rows: Vec::new(), every, is_last_kept: false, last_time: None };
         let mut series = MapSeries::new(topic, options, |map| chosen.add(&map));
         let mut warnings = read_bag(path, options, &mut series)?;
         warnings.extend(series.warnings());
+        let topic = series.topic().map_err(|error| error.in_file(path))?.to_owned();
         drop(series);
-        if chosen.rows.is_empty() {
-            return Err(Failure::file(
-                path,
-                format!("has no message of topic {topic}; give another --topic"),
-            ));
-        }
-        Ok(Self { topic: topic.to_owned(), rows: chosen.rows, warnings: in_words(&warnings) })
+        Ok(Self { topic, rows: chosen.rows, warnings: in_words(&warnings) })
     }
 }
 

@@ -6,6 +6,7 @@ use common::*;
 use mean_information::scan::Pose;
 use mean_information_files::scans::{Bearings, RangeScan, ScanOptions, carmen};
 use mean_information_files::{read_scans, tum};
+use mean_information_test_support::formats::pbstream::{cloud, double, graph, message, node, rigid, state};
 use mean_information_test_support::formats::shared_data;
 use serde_json::Value;
 use std::path::Path;
@@ -124,15 +125,17 @@ fn options_that_a_file_has_no_use_for_and_choices() {
     let path = bag("room.bag");
     let log = format!("{MAPS}/room.log");
     for (arguments, words) in [
-        (&[&*log, "--frames", "map"][..], "is no bag by its name; --frames needs one"),
+        (&[&*log, "--frames", "map"][..], "is no bag or saved state by its name; --frames needs one"),
+        (&[&*log, "--topic", "/scan"], "is no bag by its name; --topic needs one"),
+        (&[&path, "--time", "logged"], "is no CARMEN log; --time needs one, leave it out"),
         (&[&path, "--trajectory", "0"], "is no saved state by its name; --trajectory needs one"),
         (
             &[&path, "--topic", "/lidar"],
-            "has no topic /lidar of type sensor_msgs/LaserScan; topics of its scans are: /scan",
+            "has no topic /lidar of type sensor_msgs/LaserScan; topics of its scans are: /scan; --topic names one",
         ),
         (
             &[&path, "--frames", "earth"],
-            "TF does not connect base_footprint with earth; the frames over base_footprint are: odom, map",
+            "TF does not connect base_footprint with earth; the frames over base_footprint are: odom, map; --frames names one",
         ),
         (&[&path, "--base", "laser", "--pose-topics", "/odom,/gps"], "has no topic /gps"),
         (
@@ -170,6 +173,91 @@ fn a_bag_of_a_public_log_has_its_numbers() {
             assert!((a - b).abs() < allowed, "{key}: {a} {b}");
         }
     }
+}
+
+/// A state of two trajectories of three scans each; the second stands a metre to the left in the pose graph.
+fn state_of_two(folder: &Folder) -> String {
+    let ahead = [0.0, 0.0, 0.0, 1.0];
+    // Points on a wall two metres ahead, in blocks of 1.024 m.
+    let points = cloud(3, 3, &[3, 1, 0, 0, 976, 976 + (100 << 10), 976 + (200 << 10)]);
+    let records = [0, 1].into_iter().flat_map(|trajectory| {
+        let aside = trajectory as f64;
+        let scans = (0..3).map(move |index| {
+            let pose = rigid(7, [0.25 * index as f64, 0.0, 0.0], ahead);
+            let upright = message(2, &[&double(4, 1.0)]);
+            (index, [pose, upright].concat())
+        });
+        let poses: Vec<_> = (0..3).map(|index| (index, [0.25 * index as f64, aside, 0.0], ahead)).collect();
+        let points = points.clone();
+        let nodes = scans.map(move |(index, parts)| {
+            node([trajectory, index], 621_355_968_000_000_000 + 10_000_000 * index, &[&parts, &points])
+        });
+        nodes.chain([graph(trajectory, &poses)]).collect::<Vec<_>>()
+    });
+    written(folder, "two.pbstream", &state(&records.collect::<Vec<_>>()))
+}
+
+#[test]
+fn a_state_of_several_trajectories_and_poses_beside_it() {
+    let folder = Folder::new();
+    let path = state_of_two(&folder);
+    let line = refusal(&["trajectory", &path]);
+    let words = "has scans of several trajectories; its trajectories are: 0 (3 scans), 1 (3 scans); --trajectory names one";
+    assert!(line.contains(words), "{line}");
+    let names =
+        |rows: &[Value]| rows.iter().map(|row| row["poses"].as_str().unwrap().to_owned()).collect::<Vec<_>>();
+    let own = rows(&[&path, "--trajectory", "1"]);
+    assert_eq!((names(&own), &own[0]["scans"]), (vec!["local".into(), "global".into()], &3.into()));
+    // Poses of a file, alone and beside those of the state that are asked for.
+    let file = written(&folder, "poses.tum", b"0 0 0 0 0 0 0 1\n2 0.5 0 0 0 0 0 1\n");
+    let alone = rows(&[&path, &file, "--trajectory", "1", "--max-gap", "2"]);
+    assert_eq!(names(&alone), [&*file]);
+    let beside = rows(&[&path, &file, "--trajectory", "1", "--max-gap", "2", "--frames", "local"]);
+    assert_eq!(names(&beside), ["local", &*file]);
+    assert_eq!(numbers(&beside[1])["mean_information_hex"], numbers(&beside[0])["mean_information_hex"]);
+    for (arguments, words) in [
+        (
+            &["--frames", "map"][..],
+            "whose poses have no frame map; its frames are: local, global; --frames names one",
+        ),
+        (
+            &["--upside-down"],
+            "is a saved state, whose points were turned when it was made; leave --upside-down out",
+        ),
+        (&["--topic", "/scan"], "is no bag by its name; --topic needs one, leave it out"),
+    ] {
+        let line = refusal(&[&["trajectory", &*path, "--trajectory", "1"], arguments].concat());
+        assert!(line.contains(words), "{line}");
+    }
+}
+
+/// Bearings of a log that turn the wrong way make another map; turned twice they make the same.
+#[test]
+fn a_laser_that_is_said_to_be_upside_down() {
+    let folder = Folder::new();
+    let log = read_scans(&Path::new(MAPS).join("room.log"), &ScanOptions::default()).unwrap();
+    let turned: Vec<_> = log
+        .scans
+        .iter()
+        .step_by(4)
+        .map(|scan| {
+            let &Bearings::Even { start, increment } = scan.bearings() else { panic!("{scan:?}") };
+            let bearings = Bearings::Even { start: -start, increment: -increment };
+            let turned =
+                RangeScan::new(scan.time(), bearings, scan.ranges().to_vec(), scan.limits()).unwrap();
+            (scan.clone(), turned.with_laser(*scan.laser().unwrap()).with_odometry(*scan.odometry().unwrap()))
+        })
+        .collect();
+    let write = |name: &str, scans: Vec<RangeScan>| {
+        let mut text = Vec::new();
+        carmen::write(&scans, "", &mut text).unwrap();
+        written(&folder, name, &text)
+    };
+    let (upright, down): (Vec<_>, Vec<_>) = turned.into_iter().unzip();
+    let (upright, down) = (write("up.log", upright), write("down.log", down));
+    let bits = |arguments: &[&str]| rows(arguments)[0]["mean_information_hex"].clone();
+    assert_eq!(bits(&[&down, "--upside-down"]), bits(&[&upright]));
+    assert_ne!(bits(&[&down]), bits(&[&upright]));
 }
 
 #[test]

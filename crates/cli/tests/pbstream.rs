@@ -62,6 +62,12 @@ fn a_state_is_no_grid_to_draw_or_to_pool() {
     for arguments in [&["sweep", &*path][..], &["map", &path, "--heat-map", "x.png"]] {
         assert!(refusal(arguments).contains("several grids, not one"));
     }
+    let map = concat!(env!("CARGO_MANIFEST_DIR"), "/../../maps/room.yaml");
+    let line = refusal(&["map", "--submaps", &path, map]);
+    assert!(
+        line.contains("room.yaml: is no saved state; --submaps needs .pbstream files, leave it out"),
+        "{line}"
+    );
 }
 
 #[test]

@@ -10,7 +10,7 @@ use crate::options::{MAX_COUNTED, Mode, Options};
 use crate::particles::FilterLog;
 use crate::pbstream::{self, Submap};
 use crate::ros::{self, Sink};
-use crate::scans::{ScanLog, ScanOptions, Selection};
+use crate::scans::{RangeScan, ScanLog, ScanOptions, Selection};
 use crate::source::{Disk, Opened, Source, open};
 use crate::trajectory::{Trajectory, tum};
 use crate::warning::Warning;
@@ -71,8 +71,7 @@ pub fn read_map_contents_from(
 
 /// Reads the last map of a bag.
 fn last_map(path: &Path, options: &Options) -> Result<Map, Error> {
-    let topic = bags::map_topic(path, &MapTopic::default())?;
-    bags::last_map(path, &topic, options)
+    bags::last_map(path, &MapTopic::default(), options)
 }
 
 /// What becomes of the cells of a map.
@@ -334,6 +333,9 @@ fn scans(
         ScanLog::read_carmen(source.open(path)?.input, options)
     };
     let mut log = read().map_err(|error: Error| error.in_file(path))?;
+    if selection.upside_down {
+        log.scans = log.scans.into_iter().map(RangeScan::upside_down).collect();
+    }
     log.files.push(path.to_owned());
     Ok(log)
 }

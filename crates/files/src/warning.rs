@@ -171,6 +171,18 @@ pub enum Warning {
         /// The angle between the plane of its beams and that of the robot, in degrees.
         degrees: f64,
     },
+    /// A frame is on `/tf_static` and on `/tf`, whose poses hold.
+    FrameStaticAndMoving {
+        /// The frame.
+        frame: String,
+    },
+    /// A trajectory is that of the laser itself, so that the mount that is given does not apply to it.
+    PosesOfLaser,
+    /// A laser has no greatest range, so that beams that did not return say nothing.
+    NoGreatestRange {
+        /// The number of scans.
+        count: u64,
+    },
     /// The scans of a saved state are what Cartographer keeps of them.
     CloudsThinned,
     /// The last line of a text is cut short and left out.

@@ -6,7 +6,7 @@ use crate::octree::MeasuredTree;
 use crate::record::{Record, Value};
 use crate::submaps;
 use crate::words::{Refused, in_words};
-use mean_information_files::bags::{self, AnyMapTopic, MapTopic, any_map_topic, last_map};
+use mean_information_files::bags::{self, AnyMap, MapTopic, last_map_of_any_kind};
 use mean_information_files::{Contents, Disk, Map, Options, Source, octree, read_map_contents_from};
 use std::path::{Path, PathBuf};
 
@@ -52,11 +52,11 @@ impl MeasuredMap {
             return Self::read_from(&Disk, path, reading);
         }
         let wanted = MapTopic { name: reading.topic.clone(), costmaps: false };
-        Ok(vec![match any_map_topic(path, &wanted)? {
-            AnyMapTopic::Octrees(topic) => {
-                Self::of_tree(path, MeasuredTree::read_last(path, &topic, &reading.options, reading.clamp)?)
+        Ok(vec![match last_map_of_any_kind(path, &wanted, &reading.options)? {
+            AnyMap::Octree(message) => {
+                Self::of_tree(path, MeasuredTree::of_message(path, &message, reading.clamp)?)
             }
-            AnyMapTopic::Grids(topic) => Self::of_map(path, last_map(path, &topic, &reading.options)?),
+            AnyMap::Grid(map) => Self::of_map(path, map),
         }])
     }
 

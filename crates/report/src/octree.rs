@@ -9,9 +9,9 @@ use mean_information::cell::Cell;
 use mean_information::map::Encoding;
 use mean_information::map::encoding::LogOdds;
 use mean_information::{ExactSum, Tally};
-use mean_information_files::bags::last_octree;
+use mean_information_files::bags::OctreeMessage;
 use mean_information_files::octree::{DEPTH, Leaf, Octant, Octree, OctreeVisitor};
-use mean_information_files::{Error, Options, Source, read_octree_from};
+use mean_information_files::{Error, Source, read_octree_from};
 use std::path::Path;
 
 /// The number of depths, that of the root included.
@@ -83,12 +83,12 @@ impl MeasuredTree {
         Self::measured(clamp, |cells| read_octree_from(source, path, cells))
     }
 
-    /// Reads and measures the last tree of a topic of a bag.
+    /// Reads and measures the tree of a message of the bag at `path`.
     ///
     /// # Errors
-    /// As [`last_octree`].
-    pub fn read_last(path: &Path, topic: &str, options: &Options, clamp: Clamp) -> Result<Self, Refused> {
-        Self::measured(clamp, |cells| last_octree(path, topic, options, cells))
+    /// As [`OctreeMessage::read`].
+    pub fn of_message(path: &Path, message: &OctreeMessage, clamp: Clamp) -> Result<Self, Refused> {
+        Self::measured(clamp, |cells| message.read(cells).map_err(|error| error.in_file(path)))
     }
 
     /// Measures a tree as it is read.

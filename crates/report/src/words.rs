@@ -47,9 +47,13 @@ impl From<Error> for Refused {
             ErrorKind::TooLarge => {
                 format!("{}; raise it with --max-cells if the file is meant", error.message())
             }
-            ErrorKind::Choice => {
-                format!("{}; `meaninfo bag --topic` names one, --force admits costmaps", error.message())
-            }
+            ErrorKind::Choice => match error.place() {
+                Some(Place::Option("file")) => error.message().to_owned(),
+                Some(Place::Option(option)) => format!("{}; --{option} names one", error.message()),
+                _ => {
+                    format!("{}; `meaninfo bag --topic` names one, --force admits costmaps", error.message())
+                }
+            },
             ErrorKind::Options if error.place() == Some(&Place::Option("unknown")) => {
                 "--unknown needs --mode probability; give both or neither".to_owned()
             }

@@ -8,7 +8,7 @@ use crate::plots::{self, Drawing, Picture, SeriesPlot};
 use crate::series::{Row, Series};
 use clap::Args;
 use mean_information_files::Options;
-use mean_information_files::bags::{MapTopic, map_topic};
+use mean_information_files::bags::{MapTopic, bag_files};
 use mean_information_files::trajectory::seconds;
 use std::path::PathBuf;
 
@@ -41,15 +41,14 @@ impl Arguments {
     pub(super) fn run(&self) -> Result<Status, Failure> {
         let picture = self.plot.as_deref().map(Picture::by_name).transpose()?;
         let wanted = MapTopic { name: self.topic.clone(), costmaps: self.force };
-        let topic = map_topic(&self.bag, &wanted)?;
         let options = Options { max_cells: self.max_cells, ..Options::default() };
         // Rounded to the clock's ticks; what is longer than it counts is never over.
         let every = self.every.map(|every| (every * 1e9).round() as u64);
-        let series = Series::read(&self.bag, &topic, every, &options)?;
+        let series = Series::read(&self.bag, &wanted, every, &options)?;
         let mut files = Files::new();
-        files.read([self.bag.clone()]);
+        files.read(bag_files(&self.bag)?);
         if let (Some(path), Some(picture)) = (&self.plot, picture) {
-            let title = format!("{}, {topic}", plots::title(&self.bag));
+            let title = format!("{}, {}", plots::title(&self.bag), series.topic);
             files.add(path, SeriesPlot::new(&series, title).draw(picture)?);
         }
         self.writing.write(&Measured { bag: self.bag.display().to_string(), series }, files)?;

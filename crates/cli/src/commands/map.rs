@@ -7,8 +7,9 @@ use crate::plots::{self, HeatMap};
 use crate::progress::Progress;
 use crate::reading::ReadingArguments;
 use clap::Args;
-use mean_information_files::bags::{self, AnyMapTopic, MapTopic, any_map_topic, last_map};
+use mean_information_files::bags::{self, AnyMap, MapTopic, last_map_of_any_kind};
 use mean_information_files::{Map, Options, read_map};
+use mean_information_report::submaps::is_state;
 use mean_information_report::{MeasuredMap, Measures, NotMeaningful, Reading, records};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
@@ -52,6 +53,12 @@ impl Arguments {
         }
         if let Some(path) = self.maps.iter().find(|path| self.topic.is_some() && !bags::is_bag(path)) {
             return Err(Failure::file(path, "is no bag; --topic needs bags, leave it out"));
+        }
+        if let Some(path) = self.maps.iter().find(|path| self.submaps && !is_state(path)) {
+            return Err(Failure::file(
+                path,
+                "is no saved state; --submaps needs .pbstream files, leave it out",
+            ));
         }
         let progress = Progress::new(self.maps.len());
         // Threads share the files; the results stay in order.
@@ -115,12 +122,12 @@ impl Arguments {
             return Ok(read_map(path, options)?);
         }
         let wanted = MapTopic { name: self.topic.clone(), costmaps: false };
-        match any_map_topic(path, &wanted)? {
-            AnyMapTopic::Octrees(topic) => Err(Failure::file(
+        match last_map_of_any_kind(path, &wanted, options)? {
+            AnyMap::Octree(message) => Err(Failure::file(
                 path,
-                format!("{topic} is of octrees, which have no picture; leave out --heat-map"),
+                format!("{} is of octrees, which have no picture; leave out --heat-map", message.topic()),
             )),
-            AnyMapTopic::Grids(topic) => Ok(last_map(path, &topic, options)?),
+            AnyMap::Grid(map) => Ok(map),
         }
     }
 }

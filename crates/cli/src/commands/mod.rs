@@ -60,7 +60,7 @@ impl Arguments {
 pub enum Command {
     /// The mean information of maps, and what it is made of.
     Map(map::Arguments),
-    /// The mean information of the maps of a bag, one after the other as they were recorded.
+    /// The mean information of the maps of a bag, one after the other as they stand in it.
     Bag(bag::Arguments),
     /// The trajectory that makes the most consistent map of these scans: the mean information and the agreement of the map
     /// of each, without ground truth.

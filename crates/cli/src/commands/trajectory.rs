@@ -14,7 +14,7 @@ use crate::trajectory::{
 use clap::Args;
 use mean_information::Error;
 use mean_information::scan::{Pose, ScanMap};
-use mean_information_files::scans::{Frame, ScanLog, ScanOptions, TimeField};
+use mean_information_files::scans::{Frame, ScanLog, ScanOptions, Selection, TimeField};
 use mean_information_files::{bags, read_selected_scans, read_trajectory};
 use mean_information_report::submaps::is_state;
 use mean_information_report::words::in_words;
@@ -31,7 +31,8 @@ pub struct Arguments {
     scans: PathBuf,
     /// The trajectories: TUM text, `time x y z qx qy qz qw` a line, on the clock of the scans. If none is given, those that
     /// SCANS holds: of a log "laser", the poses of the laser as a SLAM program may have corrected them, and "odometry"; of a
-    /// bag those of its frames; of a saved state "local", as scans were matched, and "global", after loops were closed.
+    /// bag those of its frames; of a saved state "local", as scans were matched, and "global", after loops were closed. Beside
+    /// POSES those of --frames and --pose-topics are compared, too.
     #[arg(value_name = "POSES")]
     poses: Vec<PathBuf>,
     /// Draw the mean information against time, one curve a trajectory, to this SVG or PNG file.
@@ -80,9 +81,12 @@ struct Association {
     /// The longest time between two poses that are interpolated.
     #[arg(long, value_name = "SECONDS", default_value_t = 1.0, value_parser = seconds)]
     max_gap: f64,
-    /// The field of a CARMEN message that has its time.
-    #[arg(long, value_enum, default_value_t)]
-    time: TimeField,
+    /// The laser is mounted upside down, so that its bearings turn clockwise; of a bag, also where TF says so.
+    #[arg(long)]
+    upside_down: bool,
+    /// The field of a CARMEN message that has its time; if absent, sent.
+    #[arg(long, value_enum)]
+    time: Option<TimeField>,
 }
 
 impl Arguments {
@@ -146,9 +150,19 @@ impl Arguments {
 
     /// Reads the scans.
     fn log(&self) -> Result<ScanLog, Failure> {
-        let options = ScanOptions { maximum_range: self.sensor.max_range, time: self.association.time };
-        let Association { mount, max_gap, .. } = self.association;
-        let selection = self.recorded.selection(&self.scans, self.poses.is_empty(), mount, max_gap)?;
+        let Association { mount, max_gap, upside_down, time } = self.association;
+        let is_log = !bags::is_bag(&self.scans) && !is_state(&self.scans);
+        if time.is_some() && !is_log {
+            return Err(Failure::file(&self.scans, "is no CARMEN log; --time needs one, leave it out"));
+        }
+        if upside_down && is_state(&self.scans) {
+            let words =
+                "is a saved state, whose points were turned when it was made; leave --upside-down out";
+            return Err(Failure::file(&self.scans, words));
+        }
+        let options = ScanOptions { maximum_range: self.sensor.max_range, time: time.unwrap_or_default() };
+        let selection = self.recorded.selection(&self.scans, self.poses.is_empty())?;
+        let selection = Selection { mount, max_gap, upside_down, ..selection };
         Ok(read_selected_scans(&self.scans, &options, &selection)?)
     }
 
@@ -199,8 +213,8 @@ impl Arguments {
                 warnings: in_words(&held.warnings),
             })
         });
-        // Of a bag there are those that were asked for, of others all that they hold.
-        let is_asked_for = self.poses.is_empty() || bags::is_bag(&self.scans);
+        // Of a bag and of a state there are those that were asked for, of a log all that it holds.
+        let is_asked_for = self.poses.is_empty() || bags::is_bag(&self.scans) || is_state(&self.scans);
         let held = held.filter(|_| is_asked_for);
         let all: Vec<_> = held.chain(self.poses.iter().map(read)).collect::<Result<_, Failure>>()?;
         if all.is_empty() {

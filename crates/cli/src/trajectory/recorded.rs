@@ -2,7 +2,6 @@
 
 use crate::failure::Failure;
 use clap::Args;
-use mean_information::scan::Pose;
 use mean_information_files::bags;
 use mean_information_files::scans::Selection;
 use mean_information_report::submaps::is_state;
@@ -15,8 +14,8 @@ pub struct Recorded {
     /// The topic of a bag's scans; if absent, the only one of type sensor_msgs/LaserScan.
     #[arg(long)]
     topic: Option<String>,
-    /// Frames of a bag's TF, each of which gives a trajectory: the poses of the robot in it. If absent, and no other
-    /// trajectory is named, map and odom, where TF has them.
+    /// Frames of a bag's TF, each of which gives a trajectory: the poses of the robot in it; of a saved state local and global.
+    /// If absent, and no other trajectory is named, map and odom, where TF has them, or both of a state.
     #[arg(long, value_name = "FRAME,...", value_delimiter = ',')]
     frames: Option<Vec<String>>,
     /// Topics of a bag, each of which has a trajectory: Odometry, PoseStamped, PoseWithCovarianceStamped.
@@ -35,35 +34,23 @@ impl Recorded {
     ///
     /// # Errors
     /// An option that the file has no use for.
-    pub fn selection(
-        &self,
-        path: &Path,
-        alone: bool,
-        mount: Option<Pose>,
-        max_gap: f64,
-    ) -> Result<Selection, Failure> {
+    pub fn selection(&self, path: &Path, alone: bool) -> Result<Selection, Failure> {
         let Self { topic, frames, pose_topics, base, trajectory } = self.clone();
         let is_bag = bags::is_bag(path);
-        let of_bag = [
-            ("--topic", topic.is_some()),
-            ("--frames", frames.is_some()),
-            ("--pose-topics", !pose_topics.is_empty()),
-            ("--base", base.is_some()),
+        let (bag, state) = ("bag", "saved state");
+        let needs = [
+            ("--topic", topic.is_some(), is_bag, bag),
+            ("--frames", frames.is_some(), is_bag || is_state(path), "bag or saved state"),
+            ("--pose-topics", !pose_topics.is_empty(), is_bag, bag),
+            ("--base", base.is_some(), is_bag, bag),
+            ("--trajectory", trajectory.is_some(), is_state(path), state),
         ];
-        if let Some((option, _)) = of_bag.iter().find(|(_, is_given)| *is_given && !is_bag) {
-            return Err(Failure::file(
-                path,
-                format!("is no bag by its name; {option} needs one, leave it out"),
-            ));
-        }
-        if trajectory.is_some() && !is_state(path) {
-            return Err(Failure::file(
-                path,
-                "is no saved state by its name; --trajectory needs one, leave it out",
-            ));
+        if let Some((option, .., kind)) = needs.iter().find(|(_, is_given, has, _)| *is_given && !has) {
+            let words = format!("is no {kind} by its name; {option} needs one, leave it out");
+            return Err(Failure::file(path, words));
         }
         let named = !alone || !pose_topics.is_empty();
         let frames = if named { frames.or_else(|| Some(Vec::new())) } else { frames };
-        Ok(Selection { topic, frames, pose_topics, base, mount, trajectory, max_gap })
+        Ok(Selection { topic, frames, pose_topics, base, trajectory, ..Selection::default() })
     }
 }

@@ -6,6 +6,10 @@ use std::io::{self, Read};
 
 /// The bytes of a message beside its cells: its header, its names.
 const BESIDE_CELLS: u64 = 1 << 20;
+/// The most bytes of the names of topics and types of a bag, which chunks may hold compressed; real ones have thousands.
+const MOST_NAMES: u64 = 1 << 24;
+/// The bytes that a topic takes beside its names.
+const OF_TOPIC: u64 = 256;
 
 /// The serialisation of messages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -81,6 +85,8 @@ pub(super) struct Delivery<'a> {
     counts: BTreeMap<String, u64>,
     /// The most bytes of a message.
     most: u64,
+    /// The bytes of the names so far.
+    names: u64,
     buffer: Vec<u8>,
 }
 
@@ -88,7 +94,27 @@ impl<'a> Delivery<'a> {
     /// Creates a delivery of messages that hold at most `max_cells` cells.
     pub(super) fn new(visitor: &'a mut dyn Visitor, max_cells: u64) -> Self {
         let most = max_cells.saturating_add(BESIDE_CELLS);
-        Self { visitor, topics: BTreeMap::new(), counts: BTreeMap::new(), most, buffer: Vec::new() }
+        Self { visitor, topics: BTreeMap::new(), counts: BTreeMap::new(), most, names: 0, buffer: Vec::new() }
+    }
+
+    /// Counts the names that are kept, of topics and types.
+    pub(super) fn keep_names(&mut self, names: &[&str]) -> Result<(), Error> {
+        let bytes: u64 = names.iter().map(|name| name.len() as u64).sum();
+        self.names = self.names.saturating_add(OF_TOPIC + 2 * bytes);
+        if self.names <= MOST_NAMES {
+            return Ok(());
+        }
+        let refused =
+            Error::new(ErrorKind::OutOfMemory, "declares more topics and types than memory is kept for");
+        Err(refused
+            .with_value(self.names.to_string())
+            .allowing(", allowed are ", format!("{MOST_NAMES} bytes")))
+    }
+
+    /// Returns the most bytes that a message of a wanted topic may have.
+    #[cfg(feature = "sqlite")]
+    pub(super) fn most(&self) -> u64 {
+        self.most
     }
 
     /// Begins another file of the bag, which numbers its topics anew.
@@ -107,6 +133,7 @@ impl<'a> Delivery<'a> {
                 Err(Error::new(ErrorKind::Format, message).with_value(id.to_string()))
             }
             None => {
+                self.keep_names(&[&topic.name, &topic.kind])?;
                 let wanted = self.visitor.wants(&topic);
                 self.topics.insert(id, (topic, wanted));
                 Ok(())

@@ -25,6 +25,8 @@ const DATA_END: u8 = 15;
 const MESSAGE_HEAD: u64 = 22;
 /// The most bytes of a schema or a channel; the texts of real types have thousands.
 const MOST_DECLARED: u64 = 1 << 24;
+/// The most bytes of the name of a compression.
+const MOST_OF_NAME: u32 = 64;
 
 /// A reader of MCAP.
 #[derive(Debug, Default)]
@@ -99,7 +101,12 @@ impl Mcap {
     fn declare(&mut self, kind: u8, bytes: &mut &[u8], delivery: &mut Delivery<'_>) -> Result<(), Error> {
         let id = u16::from_le_bytes(within(array(bytes))?);
         if kind == SCHEMA {
-            self.kinds.insert(id, text(bytes)?);
+            let kind = text(bytes)?;
+            // As with channels, the same is declared in many chunks, and before the index again.
+            if self.kinds.get(&id) != Some(&kind) {
+                delivery.keep_names(&[&kind])?;
+                self.kinds.insert(id, kind);
+            }
             return Ok(());
         }
         let schema = u16::from_le_bytes(within(array(bytes))?);
@@ -115,6 +122,10 @@ impl Mcap {
         let checksum = u32::from_le_bytes(array(input)?);
         let length = u32::from_le_bytes(array(input)?);
         let mut name = Vec::new();
+        if length > MOST_OF_NAME {
+            let allowed = format!("at most {MOST_OF_NAME} bytes");
+            return Err(Error::out_of_range("the length of the compression's name", length, allowed));
+        }
         read_exactly(input, length.into(), &mut name)?;
         let packed = u64::from_le_bytes(array(input)?);
         let packed = input.take(packed);

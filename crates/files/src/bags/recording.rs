@@ -33,6 +33,8 @@ pub(super) struct Recording<'a> {
     pub(super) same_time: u64,
     /// The number of scans without a beam.
     pub(super) empty: u64,
+    /// The number of scans whose laser has no greatest range.
+    pub(super) limitless: u64,
     /// The longest time between the first beam of a scan and its last, in seconds.
     pub(super) duration: f64,
     kept: Kept,
@@ -66,6 +68,7 @@ impl<'a> Recording<'a> {
             transforms: BTreeMap::new(),
             same_time: 0,
             empty: 0,
+            limitless: 0,
             duration: 0.0,
             kept: Kept::default(),
         }
@@ -73,7 +76,7 @@ impl<'a> Recording<'a> {
 
     /// Takes a scan.
     fn scan(&mut self, message: &Message<'_>) -> Result<(), Error> {
-        let ScanMessage { header, scan, duration } = ScanMessage::read(message, self.options)?;
+        let ScanMessage { header, scan, duration, is_limitless } = ScanMessage::read(message, self.options)?;
         let laser = self.laser.get_or_insert_with(|| header.frame.to_owned());
         if *laser != header.frame {
             let words = format!("is a scan in frame {}, after those in frame {laser}", header.frame);
@@ -89,7 +92,8 @@ impl<'a> Recording<'a> {
             return Ok(());
         }
         self.duration = if duration.abs() > self.duration { duration.abs() } else { self.duration };
-        self.kept.add(scan.ranges().len())?;
+        self.limitless += u64::from(is_limitless);
+        self.kept.add(scan.ranges().len() + RangeScan::BESIDE_RANGES)?;
         self.scans.push(scan);
         Ok(())
     }
@@ -165,10 +169,46 @@ impl Visitor for Recording<'_> {
         } else if TF_KINDS.contains(&&**kind) {
             let (namespace, is_static) = namespace(name);
             let transforms = self.transforms.entry(namespace.to_owned()).or_default();
-            let taken = transforms.take(message, is_static)?;
-            self.kept.add(8 * taken as usize)
+            transforms.take(message, is_static, &mut self.kept)
         } else {
             self.pose(message)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bags::Encoding;
+    use mean_information_test_support::formats::bag::Writer;
+
+    /// What is kept of a message is counted: of a scan its ranges and 24 numbers, of a transform 8, of a frame 32 and its names.
+    #[test]
+    fn what_is_kept_is_counted() {
+        let mut scan = Writer::new(false, true);
+        scan.header([1, 0], "laser");
+        scan.floats(&[0.0, 1.0, 0.25, 0.0, 0.0, 0.0, 8.0]);
+        scan.number(3_u32.to_le_bytes());
+        scan.floats(&[1.0, 2.0, 3.0]);
+        let mut transforms = Writer::new(false, true);
+        transforms.number(2_u32.to_le_bytes());
+        for time in [1, 2] {
+            transforms.header([time, 0], &"b".repeat(80));
+            transforms.name(&"c".repeat(40));
+            transforms.doubles(&[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
+        }
+        let (options, selection) = (ScanOptions::default(), Selection::default());
+        for (name, kind, bytes, numbers) in [
+            ("/scan", ScanMessage::KIND, &scan.bytes, 24 + 3),
+            ("/tf", TF_KINDS[0], &transforms.bytes, 2 * 8 + 32 + (2 * 40 + 80) / 8),
+        ] {
+            let topic = Topic { name: name.to_owned(), kind: kind.to_owned(), encoding: Encoding::Ros1 };
+            let message = Message { topic: &topic, number: 1, time_ns: 0, bytes };
+            for (room, kept) in [(numbers, Ok(())), (numbers - 1, Err(ErrorKind::OutOfMemory))] {
+                let mut recording = Recording::new(&options, &selection);
+                recording.kept = Kept::with_room(room);
+                assert_eq!(recording.take(&message).map_err(|error| error.kind()), kept, "{name}");
+            }
         }
     }
 }

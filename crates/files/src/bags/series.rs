@@ -2,7 +2,7 @@
 
 use super::delivery::{Message, Topic, Visitor};
 use super::grid::{GridMessage, GridUpdate};
-use super::read::read_bag;
+use super::topics::{MapTopic, MapTopics};
 use crate::cells::Cells;
 use crate::error::{Error, ErrorKind};
 use crate::map::Map;
@@ -11,7 +11,7 @@ use crate::size::reserve;
 use crate::warning::Warning;
 use mean_information::map::encoding::Percent;
 use mean_information::map::{Geometry, Grid};
-use std::path::Path;
+use std::collections::BTreeMap;
 
 /// A map of a bag, as it stands after a message.
 #[derive(Clone, Copy, Debug)]
@@ -41,28 +41,74 @@ pub enum Change {
     Cells(u64),
 }
 
+/// The end of the name of the topic of a map's updates.
+const UPDATES: &str = "_updates";
+
 /// A [`Visitor`] that makes maps of the messages of a topic and of its updates, whose topic has the same name with
-/// `_updates` behind it.
+/// `_updates` behind it. Of a topic that is not named the first that may be meant is followed as the bag is read, and
+/// [`Self::topic`] tells whether it was the only one.
 pub struct MapSeries<F> {
-    topic: String,
+    topics: MapTopics,
     max_cells: u64,
     each: F,
     now: Option<(usize, usize, Geometry)>,
     cells: Vec<i8>,
-    early_updates: u64,
+    /// The number of updates before the first map, by the topics that may be meant.
+    early_updates: BTreeMap<String, u64>,
 }
 
 impl<F: FnMut(Snapshot<'_>)> MapSeries<F> {
-    /// Creates a series of the maps of `topic`, of at most as many cells as `options` allow, each of which `each` takes.
-    pub fn new(topic: &str, options: &Options, each: F) -> Self {
-        let topic = topic.to_owned();
-        Self { topic, max_cells: options.max_kept(), each, now: None, cells: Vec::new(), early_updates: 0 }
+    /// Creates a series of the maps of a topic, of at most as many cells as `options` allow, each of which `each` takes.
+    pub fn new(topic: &MapTopic, options: &Options, each: F) -> Self {
+        let (topics, early_updates) = (MapTopics::new(topic), BTreeMap::new());
+        Self { topics, max_cells: options.max_kept(), each, now: None, cells: Vec::new(), early_updates }
+    }
+
+    /// Returns the topic whose maps these are, once the bag is read.
+    ///
+    /// # Errors
+    /// An [`Error`] of kind [`ErrorKind::Choice`] that lists the topics of maps if none or several may be meant, or the one
+    /// named carries costmaps and these are not allowed; or if the topic has no message.
+    pub fn topic(&self) -> Result<&str, Error> {
+        let topic = self.topics.chosen_grid()?;
+        self.last().map(|_| topic)
+    }
+
+    /// Returns the topics of the bag.
+    pub(super) fn topics(&self) -> &MapTopics {
+        &self.topics
+    }
+
+    /// Returns the topics of the bag, to take in those of other kinds of maps.
+    pub(super) fn topics_mut(&mut self) -> &mut MapTopics {
+        &mut self.topics
+    }
+
+    /// Returns the size and the place of the last map.
+    ///
+    /// # Errors
+    /// An [`Error`] if there is none.
+    fn last(&self) -> Result<(usize, usize, Geometry), Error> {
+        self.now.ok_or_else(|| {
+            let topic = self.topics.grid().unwrap_or_default();
+            Error::new(ErrorKind::Format, format!("has no message of topic {topic}")).with_value(topic)
+        })
     }
 
     /// Returns what was noticed.
     pub fn warnings(&self) -> Vec<Warning> {
-        let early = Warning::UpdatesBeforeMap { count: self.early_updates };
-        if self.early_updates > 0 { vec![early] } else { Vec::new() }
+        let early = self.topics.grid().and_then(|topic| self.early_updates.get(topic));
+        early.map(|&count| Warning::UpdatesBeforeMap { count }).into_iter().collect()
+    }
+
+    /// Returns the last map, with all its updates.
+    ///
+    /// # Errors
+    /// An [`Error`] if there is none.
+    pub(super) fn into_last(self) -> Result<Map, Error> {
+        let ((width, height, geometry), warnings) = (self.last()?, self.warnings());
+        let cells = Cells::Percent(Grid::<Percent>::new(width, height, geometry, self.cells)?);
+        Ok(Map { cells, resolution: Some(geometry.resolution()), warnings, files: Vec::new() })
     }
 
     /// Takes a whole map.
@@ -84,8 +130,10 @@ impl<F: FnMut(Snapshot<'_>)> MapSeries<F> {
 
     /// Takes an update.
     fn update(&mut self, message: &Message<'_>) -> Result<(), Error> {
-        let Some((width, height, _)) = self.now else {
-            self.early_updates += 1;
+        let topic = message.topic.name.strip_suffix(UPDATES).unwrap_or_default();
+        let (Some((width, height, _)), true) = (self.now, self.topics.grid() == Some(topic)) else {
+            // Of a topic that is passed over nobody asks.
+            *self.early_updates.entry(topic.to_owned()).or_default() += u64::from(self.now.is_none());
             return Ok(());
         };
         let update = GridUpdate::read(message, [width, height])?;
@@ -112,11 +160,10 @@ impl<F: FnMut(Snapshot<'_>)> MapSeries<F> {
 
 impl<F: FnMut(Snapshot<'_>)> Visitor for MapSeries<F> {
     fn wants(&mut self, topic: &Topic) -> bool {
-        match topic.name.strip_prefix(&*self.topic) {
-            Some("") => topic.kind == GridMessage::KIND,
-            Some("_updates") => topic.kind == GridUpdate::KIND,
-            _ => false,
+        if topic.kind == GridUpdate::KIND {
+            return topic.name.strip_suffix(UPDATES).is_some_and(|map| self.topics.may_update(map));
         }
+        topic.kind == GridMessage::KIND && self.topics.follows(topic)
     }
 
     fn take(&mut self, message: &Message<'_>) -> Result<(), Error> {
@@ -127,7 +174,7 @@ impl<F: FnMut(Snapshot<'_>)> Visitor for MapSeries<F> {
 impl<F> std::fmt::Debug for MapSeries<F> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("MapSeries")
-            .field("topic", &self.topic)
+            .field("topics", &self.topics)
             .field("now", &self.now)
             .finish_non_exhaustive()
     }
@@ -136,22 +183,4 @@ impl<F> std::fmt::Debug for MapSeries<F> {
 /// Counts the cells that differ.
 fn differing(old: &[i8], new: &[u8]) -> u64 {
     old.iter().zip(new).filter(|&(&old, &new)| old != new.cast_signed()).count() as u64
-}
-
-/// Reads the last map of `topic` of the bag at `path`, with all its updates.
-///
-/// # Errors
-/// An [`Error`] if the topic has no message; or as [`read_bag`] and [`GridMessage::read`].
-pub fn last_map(path: &Path, topic: &str, options: &Options) -> Result<Map, Error> {
-    let mut series = MapSeries::new(topic, options, |_| {});
-    let mut warnings = read_bag(path, options, &mut series)?;
-    warnings.extend(series.warnings());
-    let MapSeries { now, cells, .. } = series;
-    let Some((width, height, geometry)) = now else {
-        let refused = Error::new(ErrorKind::Format, format!("has no message of topic {topic}"));
-        return Err(refused.with_value(topic).in_file(path));
-    };
-    let grid = Grid::<Percent>::new(width, height, geometry, cells)?;
-    let files = vec![path.to_owned()];
-    Ok(Map { cells: Cells::Percent(grid), resolution: Some(geometry.resolution()), warnings, files })
 }

@@ -3,8 +3,19 @@
 use super::delivery::{Delivery, Encoding, Topic};
 use crate::error::{Error, ErrorKind};
 use crate::warning::Warning;
+use rusqlite::limits::Limit;
 use rusqlite::{Connection, ErrorCode, OpenFlags, Row, Statement};
 use std::path::Path;
+
+/// The tables, each with the columns that are read.
+const TABLES: [(&str, &[&str]); 2] = [
+    ("topics", &["id", "name", "type", "serialization_format"]),
+    ("messages", &["topic_id", "timestamp", "data"]),
+];
+/// The bytes of a row beside its message.
+const BESIDE_MESSAGE: u64 = 1 << 10;
+/// The most bytes of SQL in the file.
+const MOST_SQL: i32 = 1 << 20;
 
 /// Says that nobody writes the file, so that SQLite puts none beside it.
 const IMMUTABLE: &str = "?immutable=1";
@@ -22,6 +33,15 @@ pub(super) fn read_file(path: &Path, delivery: &mut Delivery<'_>) -> Result<Vec<
     let flags =
         OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_URI | OpenFlags::SQLITE_OPEN_NO_MUTEX;
     let bag = Connection::open_with_flags(uri(path)?, flags).map_err(refused)?;
+    let most = delivery.most().saturating_add(BESIDE_MESSAGE);
+    let limits = [
+        (Limit::SQLITE_LIMIT_LENGTH, i32::try_from(most).unwrap_or(i32::MAX)),
+        (Limit::SQLITE_LIMIT_SQL_LENGTH, MOST_SQL),
+    ];
+    for (limit, most) in limits {
+        bag.set_limit(limit, most).map_err(refused)?;
+    }
+    check_tables(&bag)?;
     let mut topics = bag
         .prepare("SELECT id, name, type, serialization_format FROM topics ORDER BY id")
         .map_err(refused)?;
@@ -33,6 +53,29 @@ pub(super) fn read_file(path: &Path, delivery: &mut Delivery<'_>) -> Result<Vec<
     );
     let mut messages = bag.prepare(&query).map_err(refused)?;
     hand_over(&mut messages, path, delivery)
+}
+
+/// Refuses tables that are views, virtual, or have columns which SQLite computes: those could hold what the file does not.
+fn check_tables(bag: &Connection) -> Result<(), Error> {
+    for (table, columns) in TABLES {
+        let is_table = "SELECT type = 'table' AND rootpage > 0 FROM sqlite_master WHERE lower(name) = ?1";
+        let is_table = bag.query_row(is_table, [table], |row| row.get::<_, bool>(0));
+        if matches!(is_table, Ok(false)) {
+            let words = format!("has no table {table}, but a view or a virtual table of that name");
+            return Err(
+                Error::new(ErrorKind::Unsupported, words).allowing("; allowed are ", "rosbag2's tables")
+            );
+        }
+        let query = "SELECT count(*) FROM pragma_table_xinfo(?1) WHERE hidden <> 0";
+        let computed: i64 = bag.query_row(query, [table], |row| row.get(0)).map_err(refused)?;
+        if computed > 0 {
+            let words = format!("computes columns of its table {table}");
+            return Err(Error::new(ErrorKind::Unsupported, words)
+                .with_value(computed.to_string())
+                .allowing("; allowed are ", format!("columns that are stored: {}", columns.join(", "))));
+        }
+    }
+    Ok(())
 }
 
 /// Declares the topics.
@@ -92,6 +135,9 @@ fn of_another_type(table: &str, column: usize) -> Error {
 /// Takes the refusal of SQLite.
 #[allow(clippy::needless_pass_by_value, reason = "it is the end of the error")]
 fn refused(error: rusqlite::Error) -> Error {
+    if error.sqlite_error_code() == Some(ErrorCode::TooBig) {
+        return Error::new(ErrorKind::TooLarge, "has a row of more bytes than the limit").caused_by(error);
+    }
     Error::new(ErrorKind::Format, format!("is no bag of rosbag2 that SQLite reads: {error}")).caused_by(error)
 }
 

@@ -33,7 +33,8 @@ impl<'a> PoseMessage<'a> {
         let pose = fields.pose()?;
         if !pose.is_sound() {
             let what = "the pose, of which the quaternion has the length";
-            let allowed = "a finite position, and a quaternion of length 1, within 0.02";
+            let allowed =
+                "a finite position, and a quaternion whose squared length is 1, within 0.01, as in tf2";
             return Err(Error::out_of_range(what, pose.turn.norm(), allowed).at(place));
         }
         Ok(Self { header, child: child.filter(|name| !name.is_empty()), pose })

@@ -1,12 +1,10 @@
 //! The topics of a bag that carry maps, and which of them is meant.
 
-use super::delivery::{Message, Topic, Visitor};
+use super::delivery::Topic;
 use super::grid::GridMessage;
 use super::octomap::OCTOMAP;
-use super::read::read_bag;
 use crate::error::{Error, ErrorKind};
-use crate::options::Options;
-use std::path::Path;
+use std::collections::BTreeSet;
 
 /// The topic of a bag whose maps are wanted.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -27,95 +25,129 @@ pub fn is_costmap(name: &str) -> bool {
     name.to_ascii_lowercase().contains("costmap")
 }
 
-/// Finds the topic of type `nav_msgs/OccupancyGrid` that is meant in the bag at `path`.
-///
-/// # Errors
-/// An [`Error`] of kind [`ErrorKind::Choice`] that lists the topics of maps if none or several may be meant, or the one
-/// named carries costmaps and these are not allowed; or as [`read_bag`].
-pub fn map_topic(path: &Path, wanted: &MapTopic) -> Result<String, Error> {
-    let mut found = Found::default();
-    read_bag(path, &Options::default(), &mut found)?;
-    chosen(found.grids, wanted).map_err(|error| error.in_file(path))
+impl MapTopic {
+    /// Names a topic that is no costmap.
+    ///
+    /// ```
+    /// use mean_information_files::bags::MapTopic;
+    /// assert_eq!(MapTopic::named("/map").name.as_deref(), Some("/map"));
+    /// ```
+    pub fn named(name: &str) -> Self {
+        Self { name: Some(name.to_owned()), costmaps: false }
+    }
 }
 
 /// A topic of a bag that carries maps of one of two kinds.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum AnyMapTopic {
+pub(super) enum AnyMapTopic {
     /// One of type `nav_msgs/OccupancyGrid`, by its name.
     Grids(String),
     /// One of type `octomap_msgs/Octomap`, by its name.
     Octrees(String),
 }
 
-/// Finds the topic of maps that is meant in the bag at `path`: one of octrees if it is named, or the only one where there is
-/// none of grids; else as [`map_topic`].
-///
-/// # Errors
-/// As [`map_topic`].
-pub fn any_map_topic(path: &Path, wanted: &MapTopic) -> Result<AnyMapTopic, Error> {
-    let mut found = Found::default();
-    read_bag(path, &Options::default(), &mut found)?;
-    let Found { grids, mut octrees } = found;
-    octrees.sort_unstable();
-    octrees.dedup();
-    let only = || octrees.first().filter(|_| octrees.len() == 1 && grids.iter().all(|name| is_costmap(name)));
-    let meant = match &wanted.name {
-        Some(name) => octrees.iter().find(|own| *own == name),
-        None => only(),
-    };
-    if let Some(name) = meant {
-        return Ok(AnyMapTopic::Octrees(name.clone()));
+/// The topics of maps of a bag, as they are declared while it is read: the first that may be meant is followed, and in the
+/// end it is known whether another may be.
+#[derive(Debug)]
+pub(super) struct MapTopics {
+    wanted: MapTopic,
+    grids: BTreeSet<String>,
+    octrees: BTreeSet<String>,
+    /// The topic of grids that is followed.
+    grid: Option<String>,
+    /// The topic of octrees that is followed.
+    octree: Option<String>,
+}
+
+impl MapTopics {
+    /// Creates the topics of a bag of which nothing is declared yet.
+    pub(super) fn new(wanted: &MapTopic) -> Self {
+        let (grids, octrees) = (BTreeSet::new(), BTreeSet::new());
+        Self { wanted: wanted.clone(), grids, octrees, grid: None, octree: None }
     }
-    let listed =
-        if octrees.is_empty() { String::new() } else { format!("; of octrees: {}", octrees.join(", ")) };
-    let grid = chosen(grids, wanted).map_err(|error| error.followed_by(&listed).in_file(path))?;
-    Ok(AnyMapTopic::Grids(grid))
+
+    /// Takes in a topic; tells whether it is followed.
+    pub(super) fn follows(&mut self, topic: &Topic) -> bool {
+        let name = &topic.name;
+        let is_named = self.wanted.name.as_ref().is_none_or(|wanted| wanted == name);
+        let (names, followed, may_be) = match &*topic.kind {
+            GridMessage::KIND => {
+                let is_allowed = self.wanted.name.is_some() && self.wanted.costmaps || !is_costmap(name);
+                (&mut self.grids, &mut self.grid, is_named && is_allowed)
+            }
+            OCTOMAP => (&mut self.octrees, &mut self.octree, is_named),
+            _ => return false,
+        };
+        names.insert(name.clone());
+        if followed.is_none() && may_be {
+            *followed = Some(name.clone());
+        }
+        followed.as_ref() == Some(name)
+    }
+
+    /// Tells whether the updates of a topic may be wanted, of which it is not known yet whether it is meant.
+    pub(super) fn may_update(&self, topic: &str) -> bool {
+        match &self.wanted.name {
+            Some(wanted) => wanted == topic,
+            None => !is_costmap(topic),
+        }
+    }
+
+    /// Returns the topic of grids that is followed.
+    pub(super) fn grid(&self) -> Option<&str> {
+        self.grid.as_deref()
+    }
+
+    /// Returns the topic of type `nav_msgs/OccupancyGrid` that is meant.
+    ///
+    /// # Errors
+    /// An [`Error`] of kind [`ErrorKind::Choice`] that lists the topics of maps if none or several may be meant, or the one
+    /// named carries costmaps and these are not allowed.
+    pub(super) fn chosen_grid(&self) -> Result<&str, Error> {
+        chosen(&self.grids, &self.wanted)
+    }
+
+    /// Returns the topic that is meant: one of octrees if it is named, or the only one where there is none of grids; else as
+    /// [`Self::chosen_grid`].
+    ///
+    /// # Errors
+    /// As [`Self::chosen_grid`].
+    pub(super) fn chosen(&self) -> Result<AnyMapTopic, Error> {
+        let is_meant = match &self.wanted.name {
+            Some(_) => self.octree.is_some(),
+            None => self.octrees.len() == 1 && self.grids.iter().all(|name| is_costmap(name)),
+        };
+        if let Some(name) = self.octree.as_ref().filter(|_| is_meant) {
+            return Ok(AnyMapTopic::Octrees(name.clone()));
+        }
+        let octrees = self.octrees.iter().map(String::as_str).collect::<Vec<_>>().join(", ");
+        let listed = if octrees.is_empty() { octrees } else { format!("; of octrees: {octrees}") };
+        let grid = self.chosen_grid().map_err(|error| error.followed_by(&listed))?;
+        Ok(AnyMapTopic::Grids(grid.to_owned()))
+    }
 }
 
 /// Chooses the topic that is meant among those of maps.
-fn chosen(mut topics: Vec<String>, wanted: &MapTopic) -> Result<String, Error> {
-    topics.sort_unstable();
-    topics.dedup();
-    let listed = if topics.is_empty() { "none".to_owned() } else { topics.join(", ") };
+fn chosen<'a>(topics: &'a BTreeSet<String>, wanted: &MapTopic) -> Result<&'a str, Error> {
+    let listed = topics.iter().map(String::as_str).collect::<Vec<_>>().join(", ");
+    let listed = if listed.is_empty() { "none".to_owned() } else { listed };
     let refuse = |words: String| {
         Err(Error::new(ErrorKind::Choice, words).allowing("; topics of its maps are: ", listed.clone()))
     };
     if let Some(name) = &wanted.name {
-        return match topics.contains(name) {
-            false => refuse(format!("has no topic {name} of type {}", GridMessage::KIND)),
-            true if is_costmap(name) && !wanted.costmaps => refuse(format!(
+        return match topics.get(name) {
+            None => refuse(format!("has no topic {name} of type {}", GridMessage::KIND)),
+            Some(_) if is_costmap(name) && !wanted.costmaps => refuse(format!(
                 "{name} carries costmaps by its name, whose cells are costs and not probabilities of being occupied"
             )),
-            true => Ok(name.clone()),
+            Some(name) => Ok(name),
         };
     }
     let maps: Vec<&String> = topics.iter().filter(|name| !is_costmap(name)).collect();
     match *maps {
-        [name] => Ok(name.clone()),
+        [name] => Ok(name),
         [] => refuse("has no topic of maps, other than costmaps".to_owned()),
         _ => refuse("has several topics of maps".to_owned()),
-    }
-}
-
-/// Takes the names of the topics of maps and none of their messages.
-#[derive(Default)]
-struct Found {
-    grids: Vec<String>,
-    octrees: Vec<String>,
-}
-
-impl Visitor for Found {
-    fn wants(&mut self, topic: &Topic) -> bool {
-        if topic.kind == GridMessage::KIND {
-            self.grids.push(topic.name.clone());
-        } else if topic.kind == OCTOMAP {
-            self.octrees.push(topic.name.clone());
-        }
-        false
-    }
-
-    fn take(&mut self, _: &Message<'_>) -> Result<(), Error> {
-        Ok(())
     }
 }
 
@@ -126,7 +158,7 @@ mod tests {
     fn choose(topics: &[&str], name: Option<&str>, costmaps: bool) -> Result<String, String> {
         let wanted = MapTopic { name: name.map(str::to_owned), costmaps };
         let topics = topics.iter().map(|&name| name.to_owned()).collect();
-        chosen(topics, &wanted).map_err(|error| error.to_string())
+        chosen(&topics, &wanted).map(str::to_owned).map_err(|error| error.to_string())
     }
 
     #[test]

@@ -2,12 +2,17 @@
 
 use super::delivery::Message;
 use super::fields::Fields;
-use crate::error::{Error, ErrorKind};
+use crate::error::{Error, ErrorKind, Place};
+use crate::scans::Kept;
 use crate::trajectory::{Rigid, part};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The types of messages that have transforms; the second is that of early ROS 1.
 pub(super) const TF_KINDS: [&str; 2] = ["tf2_msgs/TFMessage", "tf/tfMessage"];
+
+/// The numbers that a frame takes beside its names and its poses, and those of a pose at a time.
+const OF_FRAME: usize = 32;
+const OF_POSE: usize = 8;
 
 /// Frames, each with the one that carries it.
 #[derive(Debug, Default)]
@@ -24,10 +29,12 @@ struct Carried {
     by: String,
     /// Another frame of which some message says the same.
     also_by: Option<String>,
-    /// Its pose there, by `/tf_static`.
+    /// Its pose there by `/tf_static`, where no message of `/tf` has the frame.
     fixed: Option<Rigid>,
     /// Its poses there by their times, by `/tf`.
     moving: Vec<(f64, Rigid)>,
+    /// Whether it is on `/tf_static` and on `/tf`.
+    of_two_kinds: bool,
 }
 
 /// The way from a frame to another: up to the frame that carries both, and down again.
@@ -38,15 +45,19 @@ pub(super) struct Way<'a> {
 }
 
 impl Transforms {
-    /// Takes the transforms of a message; returns how many. As tf2, it passes over those whose numbers are no pose, and
-    /// those of a frame in itself.
+    /// Takes the transforms of a message, and counts what is kept of them. As tf2, it passes over those whose numbers are no
+    /// pose, and those of a frame in itself. A frame of both topics moves: in tf2 it does from the first message of `/tf` on.
     ///
     /// # Errors
-    /// An [`Error`] with the byte in the message at which it is not one.
-    pub(super) fn take(&mut self, message: &Message<'_>, is_static: bool) -> Result<u64, Error> {
+    /// An [`Error`] with the byte in the message at which it is not one; or as [`Kept::add`].
+    pub(super) fn take(
+        &mut self,
+        message: &Message<'_>,
+        is_static: bool,
+        kept: &mut Kept,
+    ) -> Result<(), Error> {
         let mut fields = Fields::new(message)?;
-        let count = fields.u32()?;
-        for _ in 0..count {
+        for _ in 0..fields.u32()? {
             let header = fields.header()?;
             let child = fields.frame()?;
             let pose = fields.pose()?;
@@ -54,24 +65,40 @@ impl Transforms {
                 self.unsound += 1;
                 continue;
             }
-            let carried = self.carried(child, header.frame);
-            if is_static {
-                carried.fixed = Some(pose);
-            } else {
+            kept.add(OF_POSE)?;
+            let carried = self.carried(child, header.frame, kept)?;
+            carried.of_two_kinds |=
+                if is_static { !carried.moving.is_empty() } else { carried.fixed.take().is_some() };
+            if !is_static {
                 carried.moving.push((header.time, pose));
+            } else if carried.moving.is_empty() {
+                carried.fixed = Some(pose);
             }
         }
-        Ok(u64::from(count))
+        Ok(())
     }
 
     /// Returns what is known of a frame, with a frame that carries it.
-    fn carried(&mut self, child: &str, by: &str) -> &mut Carried {
-        let new = || Carried { by: by.to_owned(), also_by: None, fixed: None, moving: Vec::new() };
-        let carried = self.carried.entry(child.to_owned()).or_insert_with(new);
-        if carried.by != by {
+    fn carried(&mut self, child: &str, by: &str, kept: &mut Kept) -> Result<&mut Carried, Error> {
+        if !self.carried.contains_key(child) {
+            kept.add(OF_FRAME + (2 * child.len() + by.len()) / size_of::<f64>())?;
+            let (fixed, moving) = (None, Vec::new());
+            let new = Carried { by: by.to_owned(), also_by: None, fixed, moving, of_two_kinds: false };
+            self.carried.insert(child.to_owned(), new);
+        }
+        let Some(carried) = self.carried.get_mut(child) else {
+            return Err(Error::new(ErrorKind::Format, "has no frame"));
+        };
+        if carried.by != by && carried.also_by.is_none() {
+            kept.add(by.len() / size_of::<f64>())?;
             carried.also_by = Some(by.to_owned());
         }
-        carried
+        Ok(carried)
+    }
+
+    /// Returns the frames that are on `/tf` and on `/tf_static`.
+    pub(super) fn of_two_kinds(&self) -> impl Iterator<Item = &str> {
+        self.carried.iter().filter(|(_, carried)| carried.of_two_kinds).map(|(name, _)| &**name)
     }
 
     /// Puts poses in the order of their times; of those of one time the first holds, as in tf2.
@@ -125,7 +152,8 @@ impl Transforms {
         let Some(common) = up.iter().find(|&name| over_both.contains(name)) else {
             let refused = Error::new(ErrorKind::Choice, format!("TF does not connect {from} with {to}"));
             let over = if up.len() > 1 { up[1..].join(", ") } else { "none".to_owned() };
-            return Err(refused.with_value(to).allowing(&format!("; the frames over {from} are: "), over));
+            let refused = refused.with_value(to).at(Place::Option("frames"));
+            return Err(refused.allowing(&format!("; the frames over {from} are: "), over));
         };
         let part = |frames: &[&str]| {
             frames

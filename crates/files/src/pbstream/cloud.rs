@@ -3,7 +3,7 @@
 //! A block is its number of points, its place (x, y, z, in blocks), and an integer a point, of which the lowest ten bits are
 //! x within the block, the next ten y, and the rest z.
 
-use super::fields::{WireValue, fields, varint};
+use super::fields::{WireValue, fields, packed};
 use crate::error::{Error, ErrorKind};
 use crate::scans::Kept;
 use std::io::Read;
@@ -31,11 +31,7 @@ impl Cloud {
             match (number, value) {
                 (1, value) => cloud.points = value.integer()?,
                 (3, WireValue::Length(length)) => {
-                    let mut numbers = input.take(length);
-                    while numbers.limit() > 0 {
-                        let number = varint(&mut numbers)?;
-                        cloud.push(number, kept)?;
-                    }
+                    packed(input, length, |number| cloud.push(number, kept))?;
                 }
                 (3, value) => cloud.push(value.integer()?, kept)?,
                 _ => {}

@@ -1,7 +1,7 @@
 //! The fields of a protobuf message, read as a stream.
 
 use crate::error::{Error, ErrorKind};
-use std::io::{self, Read, Take};
+use std::io::{self, BufRead, BufReader, Read, Take};
 
 /// The value of a field, of which texts and messages are still to be read.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -101,8 +101,25 @@ fn field(first: u8, message: &mut Message<'_>, each: &mut Each<'_>) -> Result<()
     Ok(())
 }
 
+/// Hands the integers of a field of `length` bytes to `each`.
+pub(super) fn packed(
+    input: &mut dyn Read,
+    length: u64,
+    mut each: impl FnMut(u64) -> Result<(), Error>,
+) -> Result<(), Error> {
+    // The reader takes no byte from behind the field.
+    let mut numbers = BufReader::new(input.take(length));
+    while !numbers.fill_buf()?.is_empty() {
+        each(varint(&mut numbers)?)?;
+    }
+    if numbers.into_inner().limit() > 0 {
+        return Err(io::Error::from(io::ErrorKind::UnexpectedEof).into());
+    }
+    Ok(())
+}
+
 /// Reads an integer of up to ten bytes, the least significant seven bits first.
-pub(super) fn varint(input: &mut impl Read) -> Result<u64, Error> {
+fn varint(input: &mut impl Read) -> Result<u64, Error> {
     let [first] = array(input)?;
     varint_after(first, input)
 }

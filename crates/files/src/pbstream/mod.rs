@@ -1,7 +1,8 @@
 //! Cartographer's saved states, `.pbstream`: the probability grids of its submaps, whole, where its exported images are
 //! thresholded.
 //!
-//! A state is eight bytes of magic, then records: their length in eight bytes, and a protobuf message in gzip. All is
+//! A state is eight bytes of magic, then records: their length in eight bytes, and a protobuf message in gzip. The first is a
+//! header with the version of the format. All is
 //! read as a stream, by hand: a dozen fields of four messages are needed, which no crate would read without holding a
 //! submap twice. Of a cell's value `v`, whose bit 15 is a mark, 0 is unknown; otherwise, in `f32` as in Cartographer,
 //!
@@ -13,6 +14,7 @@
 
 mod cloud;
 mod fields;
+mod header;
 mod nodes;
 mod reading;
 mod submap;

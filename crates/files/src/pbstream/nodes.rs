@@ -2,8 +2,10 @@
 
 use super::cloud::Cloud;
 use super::fields::{Message, WireValue, fields};
-use crate::error::{Error, ErrorKind};
-use crate::scans::{Bearings, Frame, Kept, RangeScan, RecordedTrajectory, ScanLog, ScanOptions, Selection};
+use crate::error::{Error, ErrorKind, Place};
+use crate::scans::{
+    Bearings, FARTHEST, Frame, Kept, RangeScan, RecordedTrajectory, ScanLog, ScanOptions, Selection,
+};
 use crate::trajectory::{Quaternion, Rigid, Tilts, Trajectory, check_time, seconds};
 use crate::warning::Warning;
 use mean_information::scan::{Direction, Pose};
@@ -12,8 +14,13 @@ use std::collections::BTreeMap;
 /// 1970 on Cartographer's clock, which counts steps of 100 nanoseconds since the year 1.
 const UNIX_EPOCH: i128 = 621_355_968_000_000_000;
 const STEP_NS: i128 = 100;
-/// The greatest range in metres unless the caller says otherwise: no point of a cloud is as far.
-const MAXIMUM_RANGE: f64 = 20_000.0;
+/// The numbers that a node takes beside its points, and those of a point: in single precision, and as a beam of a scan.
+const OF_NODE: usize = 32;
+const OF_POINT: usize = 3;
+/// The numbers that a pose of the pose graph takes, with the number of its node, twice.
+const OF_GLOBAL: usize = 24;
+/// The names of the poses that a node has.
+const NAMES: [&str; 2] = ["local", "global"];
 
 /// A node, by the numbers of its trajectory and of itself there.
 type Id = (u64, u64);
@@ -23,7 +30,7 @@ type Id = (u64, u64);
 pub(super) struct Nodes {
     matched: BTreeMap<Id, Node>,
     global: BTreeMap<Id, Rigid>,
-    kept: Kept,
+    pub(super) kept: Kept,
 }
 
 /// A node.
@@ -69,8 +76,7 @@ impl Nodes {
         }
         let points = cloud.in_plane().map_err(of)?;
         let ticks = i128::from(ticks.cast_signed()) - UNIX_EPOCH;
-        // Beside its points a node takes as much as 32 numbers.
-        self.kept.add(32)?;
+        self.kept.add(OF_NODE + OF_POINT * points.len())?;
         let node = Node { time: seconds(ticks * STEP_NS), upright, local, points };
         if self.matched.insert((trajectory, index), node).is_some() {
             return Err(of(Error::new(ErrorKind::Format, "is there twice")));
@@ -98,7 +104,7 @@ impl Nodes {
                             }
                             Ok(())
                         })?;
-                        self.kept.add(8)?;
+                        self.kept.add(OF_GLOBAL)?;
                         poses.push((index, pose));
                     }
                     3 => trajectory = value.integer()?,
@@ -114,10 +120,11 @@ impl Nodes {
     /// Returns the nodes as a log.
     pub(super) fn log(self, options: &ScanOptions, selection: &Selection) -> Result<ScanLog, Error> {
         let wanted = self.trajectory(selection)?;
-        let greatest = options.maximum_range.unwrap_or(MAXIMUM_RANGE);
+        let names = names(selection)?;
+        let greatest = options.maximum_range.unwrap_or(FARTHEST);
         let mount = selection.mount.map_or_else(|| Pose::new(0.0, 0.0, 0.0), Ok)?;
         let mut scans: Vec<RangeScan> = Vec::new();
-        let mut held = ["local", "global"].map(|name| (name, Vec::new(), Vec::new(), Tilts::default()));
+        let mut held = NAMES.map(|name| (name, Vec::new(), Vec::new(), Tilts::default()));
         let [mut same_time, mut empty] = [0; 2];
         for ((_, index), node) in self.matched.iter().filter(|((trajectory, _), _)| *trajectory == wanted) {
             let of = |error: Error| error.preceded_by(&format!("node {wanted}, {index}: "));
@@ -147,7 +154,7 @@ impl Nodes {
         }
         let mut trajectories = Vec::new();
         for (name, times, poses, tilts) in held {
-            if !times.is_empty() {
+            if !times.is_empty() && names.contains(&name) {
                 let (name, trajectory) = (name.to_owned(), Trajectory::new(times, poses)?);
                 let warnings = tilts.warning().into_iter().collect();
                 trajectories.push(RecordedTrajectory { name, frame: Frame::Robot, trajectory, warnings });
@@ -178,8 +185,22 @@ impl Nodes {
         let listed: Vec<_> =
             counts.iter().map(|(trajectory, count)| format!("{trajectory} ({count} scans)")).collect();
         let listed = if listed.is_empty() { "none".to_owned() } else { listed.join(", ") };
-        Err(Error::new(ErrorKind::Choice, words).allowing("; its trajectories are: ", listed))
+        let refused = Error::new(ErrorKind::Choice, words).at(Place::Option("trajectory"));
+        Err(refused.allowing("; its trajectories are: ", listed))
     }
+}
+
+/// Returns the names of the poses that are wanted.
+fn names(selection: &Selection) -> Result<Vec<&'static str>, Error> {
+    let Some(wanted) = &selection.frames else { return Ok(NAMES.to_vec()) };
+    let own = |wanted: &String| {
+        NAMES.into_iter().find(|name| name == wanted).ok_or_else(|| {
+            let words = format!("is a saved state, whose poses have no frame {wanted}");
+            let refused = Error::new(ErrorKind::Choice, words).with_value(wanted);
+            refused.at(Place::Option("frames")).allowing("; its frames are: ", NAMES.join(", "))
+        })
+    };
+    wanted.iter().map(own).collect()
 }
 
 /// Returns the scan of a node by a laser that is mounted at `mount` in the tracking frame.
@@ -245,7 +266,7 @@ fn rigid(input: &mut Message<'_>, value: WireValue) -> Result<Rigid, Error> {
         }
         Ok(())
     })?;
-    if pose.is_sound() {
+    if pose.position.iter().all(|x| x.is_finite()) {
         return Ok(pose);
     }
     let [x, y, z] = pose.position;

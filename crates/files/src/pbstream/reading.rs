@@ -1,31 +1,44 @@
 //! The records of a saved state.
 
-use super::fields::{Each, WireValue, array, fields_to_end};
+use super::fields::{Each, array, fields_to_end};
+use super::header::check_version;
 use super::nodes::Nodes;
 use super::submap::Submap;
 use crate::error::{Error, ErrorKind, Place};
 use crate::options::{MAX_COUNTED, Options};
-use crate::scans::{ScanLog, ScanOptions, Selection};
+use crate::scans::{Kept, ScanLog, ScanOptions, Selection};
 use flate2::read::GzDecoder;
-use std::io::Read;
+use std::io::{BufReader, Read};
 
 const MAGIC: u64 = 0x7b1d_1f7b_5bf5_01db;
+/// The byte of the first record.
+const FIRST: u64 = 8;
 /// The most bytes of a cell, and of a message beside its cells.
 const BYTES_PER_CELL: u64 = 3;
 const BESIDE_CELLS: u64 = 1 << 30;
+/// The numbers that a submap takes beside those of its values.
+const OF_SUBMAP: usize = 16;
 
 /// Reads the submaps of a saved state of `length` bytes, in the order of the file.
 ///
 /// # Errors
-/// An [`Error`] with the byte of the record if this is no saved state, is cut short, has submaps in three dimensions or of
+/// An [`Error`] with the byte of the record if this is no saved state of format 1 or 2, is cut short, has submaps in three dimensions or of
 /// signed distances, or a grid whose cells are not as many as it says or more than the limit.
 pub fn read(input: impl Read, length: u64, options: &Options) -> Result<Vec<Submap>, Error> {
+    submaps(input, length, options, &mut Kept::default())
+}
+
+/// Reads the submaps, and counts what is kept of them: a record may repeat them, compressed.
+fn submaps(input: impl Read, length: u64, options: &Options, kept: &mut Kept) -> Result<Vec<Submap>, Error> {
     let max_cells = options.max_cells.unwrap_or(MAX_COUNTED);
     let mut submaps = Vec::new();
     let most = max_cells.saturating_mul(BYTES_PER_CELL).saturating_add(BESIDE_CELLS);
     records(input, length, most, &mut |number, value, input| {
         if number == 3 {
-            submaps.push(Submap::read(input, value.length()?, max_cells)?);
+            let submap = Submap::read(input, value.length()?, max_cells)?;
+            // A value takes a probability and a count.
+            kept.add(OF_SUBMAP + 2 * submap.counts.values.len())?;
+            submaps.push(submap);
         }
         Ok(())
     })?;
@@ -45,8 +58,8 @@ pub fn read(input: impl Read, length: u64, options: &Options) -> Result<Vec<Subm
 /// ```
 ///
 /// # Errors
-/// An [`Error`] with the byte of the record if this is no saved state, is cut short, has scans in three dimensions or a
-/// node of another form than Cartographer's; of kind [`ErrorKind::Choice`] if it has several trajectories and `selection`
+/// An [`Error`] with the byte of the record if this is no saved state of format 1 or 2, is cut short, has scans in three
+/// dimensions or a node of another form than Cartographer's; of kind [`ErrorKind::Choice`] if it has several trajectories and `selection`
 /// names none of them; if there is no scan.
 pub fn read_scans(
     input: impl Read,
@@ -55,17 +68,21 @@ pub fn read_scans(
     selection: &Selection,
 ) -> Result<ScanLog, Error> {
     let mut nodes = Nodes::default();
-    let most = MAX_COUNTED.saturating_mul(BYTES_PER_CELL).saturating_add(BESIDE_CELLS);
-    records(input, length, most, &mut |number, value, input| match (number, value) {
-        // The first record has a number in this place: the version of the format.
-        (1, WireValue::Length(length)) => nodes.read_graph(input, length),
-        (4, value) => nodes.read_node(input, value.length()?),
-        _ => Ok(()),
-    })?;
+    all_nodes(input, length, &mut nodes)?;
     nodes.log(options, selection)
 }
 
-/// Hands the fields of all records, of at most `most` bytes each, to `each`.
+/// Reads the nodes and their poses.
+fn all_nodes(input: impl Read, length: u64, nodes: &mut Nodes) -> Result<(), Error> {
+    let most = MAX_COUNTED.saturating_mul(BYTES_PER_CELL).saturating_add(BESIDE_CELLS);
+    records(input, length, most, &mut |number, value, input| match number {
+        1 => nodes.read_graph(input, value.length()?),
+        4 => nodes.read_node(input, value.length()?),
+        _ => Ok(()),
+    })
+}
+
+/// Checks the first record, the header, and hands the fields of all others, of at most `most` bytes each, to `each`.
 fn records(mut input: impl Read, length: u64, most: u64, each: &mut Each<'_>) -> Result<(), Error> {
     let mut magic = Vec::new();
     input.by_ref().take(8).read_to_end(&mut magic)?;
@@ -73,7 +90,7 @@ fn records(mut input: impl Read, length: u64, most: u64, each: &mut Each<'_>) ->
         let refused = Error::new(ErrorKind::Format, "is no saved state of Cartographer by its first bytes");
         return Err(refused.at(Place::Byte(0)));
     }
-    let mut at = 8;
+    let mut at = FIRST;
     while at < length {
         let of = |error: Error| error.preceded_by(&format!("record at byte {at}: ")).at(Place::Byte(at));
         let size = u64::from_le_bytes(array(&mut input).map_err(|error| of(error.into()))?);
@@ -86,9 +103,45 @@ fn records(mut input: impl Read, length: u64, most: u64, each: &mut Each<'_>) ->
             return Err(of(Error::new(ErrorKind::CutShort, words).with_value(size.to_string())));
         };
         let mut record = (&mut input).take(size);
-        fields_to_end(&mut GzDecoder::new(&mut record), most, each).map_err(of)?;
+        // Numbers are read byte by byte.
+        let mut unpacked = BufReader::new(GzDecoder::new(&mut record));
+        let read = if at == FIRST {
+            check_version(&mut unpacked, most)
+        } else {
+            fields_to_end(&mut unpacked, most, each)
+        };
+        read.map_err(of)?;
         std::io::copy(&mut record, &mut std::io::sink()).map_err(|error| of(error.into()))?;
         at = end;
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mean_information_test_support::formats::pbstream::{cloud, grid, message, node, state, submap};
+
+    /// What is kept of a state that a small file repeats is counted: of a submap 16 numbers and 2 a value, of a node 32, and of
+    /// a point the integer that it is stored as and 3.
+    #[test]
+    fn what_is_kept_is_counted() {
+        let one = submap(&grid(&[0, 1, 2, 3, 3, 3], b""));
+        let bytes = state(&[[&*one, &one].concat()]);
+        let kept = |room| {
+            let mut kept = Kept::with_room(room);
+            submaps(&*bytes, bytes.len() as u64, &Options::default(), &mut kept).map(|found| found.len())
+        };
+        assert_eq!(kept(48).unwrap(), 2);
+        assert_eq!(kept(47).unwrap_err().kind(), ErrorKind::OutOfMemory);
+        let points = cloud(3, 2, &[2, 0, 0, 0, 7, 9]);
+        let bytes = state(&[node([0, 0], 1, &[&points, &message(9, &[])])]);
+        let kept = |room| {
+            let mut nodes = Nodes::default();
+            nodes.kept = Kept::with_room(room);
+            all_nodes(&*bytes, bytes.len() as u64, &mut nodes)
+        };
+        kept(32 + 6 + 2 * 3).unwrap();
+        assert_eq!(kept(32 + 6 + 2 * 3 - 1).unwrap_err().kind(), ErrorKind::OutOfMemory);
+    }
 }

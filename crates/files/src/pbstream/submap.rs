@@ -1,6 +1,6 @@
 //! A submap of a saved state: `Submap`, `Submap2D`, `Grid2D`.
 
-use super::fields::{WireValue, fields, varint};
+use super::fields::{WireValue, fields, packed};
 use crate::cells::Counts;
 use crate::error::{Error, ErrorKind};
 use crate::size::Size;
@@ -88,11 +88,7 @@ impl Grid {
             match (number, value) {
                 (1, value) => grid.read_limits(input, value.length()?)?,
                 (2, WireValue::Length(length)) => {
-                    let mut cells = input.take(length);
-                    while cells.limit() > 0 {
-                        let cell = varint(&mut cells)?;
-                        grid.add(cell)?;
-                    }
+                    packed(input, length, |cell| grid.add(cell))?;
                 }
                 (2, cell) => grid.add(cell.integer()?)?,
                 (5, _) => {

@@ -3,11 +3,17 @@
 use crate::error::{Error, ErrorKind};
 use crate::options::MAX_CELLS;
 
-/// The number of numbers so far.
+/// The number of numbers so far, of 8 bytes each.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Kept(u64);
 
 impl Kept {
+    /// Creates a count that allows so many more.
+    #[cfg(test)]
+    pub(crate) fn with_room(numbers: u64) -> Self {
+        Self(MAX_CELLS - numbers)
+    }
+
     /// Counts more.
     ///
     /// # Errors

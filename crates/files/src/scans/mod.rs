@@ -24,5 +24,6 @@ mod range_scan;
 
 pub(crate) use kept::Kept;
 pub use log::{Frame, RecordedTrajectory, ScanLog};
+pub(crate) use options::FARTHEST;
 pub use options::{ScanOptions, Selection, TimeField};
 pub use range_scan::{Bearings, NoReturn, RangeScan, Reading};

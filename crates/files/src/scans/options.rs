@@ -2,6 +2,9 @@
 
 use mean_information::scan::Pose;
 
+/// The greatest range, in metres, of a sensor that has none: no laser sees as far.
+pub(crate) const FARTHEST: f64 = 20_000.0;
+
 /// The options of the readers of scans. The default is everything as the file says.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ScanOptions {
@@ -17,7 +20,8 @@ pub struct ScanOptions {
 pub struct Selection {
     /// The topic of a bag's scans; the only one of type `sensor_msgs/LaserScan` if absent.
     pub topic: Option<String>,
-    /// The frames of a bag's TF each of which gives a trajectory; `map` and `odom`, where TF has them, if absent.
+    /// The frames of a bag's TF each of which gives a trajectory; `map` and `odom`, where TF has them, if absent. Of a saved
+    /// state "local" and "global"; both if absent.
     pub frames: Option<Vec<String>>,
     /// The topics of a bag each of which has a trajectory.
     pub pose_topics: Vec<String>,
@@ -25,6 +29,9 @@ pub struct Selection {
     pub base: Option<String>,
     /// The pose of the laser on the robot, in place of TF's; of a saved state in the tracking frame.
     pub mount: Option<Pose>,
+    /// True if the laser is mounted upside down, so that its bearings turn clockwise; of a bag, also where TF says so. The points
+    /// of a saved state are not turned.
+    pub upside_down: bool,
     /// The trajectory of a saved state, by its number; the only one if absent.
     pub trajectory: Option<u64>,
     /// The longest time, in seconds, between two poses of TF that are interpolated.
@@ -39,6 +46,7 @@ impl Default for Selection {
             pose_topics: Vec::new(),
             base: None,
             mount: None,
+            upside_down: false,
             trajectory: None,
             max_gap: 1.0,
         }

@@ -78,6 +78,9 @@ pub struct RangeScan {
 }
 
 impl RangeScan {
+    /// The numbers that a record takes beside its ranges, at most.
+    pub(crate) const BESIDE_RANGES: usize = 24;
+
     /// Creates a record without poses: its time in seconds, and the ranges at their bearings, as they were recorded, by a
     /// sensor that sees from `limits[0]` to `limits[1]` metres.
     ///

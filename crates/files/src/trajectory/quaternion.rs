@@ -8,8 +8,10 @@ use std::f64::consts::PI;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Quaternion(pub(crate) [f64; 4]);
 
-/// How far the length of a quaternion may be from 1: two decimals, rounded.
+/// How far the length of a quaternion in a text may be from 1: two decimals, rounded.
 const NORM_TOLERANCE: f64 = 0.02;
+/// How far the square of a length may be from 1 in tf2.
+const SQUARE_TOLERANCE: f64 = 0.01;
 
 impl Quaternion {
     /// Creates the turn by `yaw` radians about the z axis.
@@ -24,9 +26,19 @@ impl Quaternion {
     /// The orientation of the world itself.
     pub(crate) const NONE: Self = Self([0.0, 0.0, 0.0, 1.0]);
 
+    /// Returns the square of the length.
+    fn square(self) -> f64 {
+        self.0.iter().map(|x| x * x).sum()
+    }
+
     /// Returns the length.
     pub(crate) fn norm(self) -> f64 {
-        sqrt(self.0.iter().map(|x| x * x).sum::<f64>())
+        sqrt(self.square())
+    }
+
+    /// Tells whether tf2 takes it for an orientation: the square of the length is 1, within 0.01.
+    pub(crate) fn is_normal_in_tf2(self) -> bool {
+        (self.square() - 1.0).abs() < SQUARE_TOLERANCE
     }
 
     /// Tells whether the length is 1, within 0.02.
@@ -53,9 +65,8 @@ impl Quaternion {
 
     /// Returns the vector in the world that is `v` in this body.
     pub(crate) fn rotate(self, v: [f64; 3]) -> [f64; 3] {
-        let [x, y, z, w] = self.0;
         let turned = self.compose(Self([v[0], v[1], v[2], 0.0])).compose(self.conjugate()).0;
-        let square = x * x + y * y + z * z + w * w;
+        let square = self.square();
         [turned[0] / square, turned[1] / square, turned[2] / square]
     }
 

@@ -18,9 +18,9 @@ impl Rigid {
     /// The pose of a frame in itself.
     pub(crate) const NONE: Self = Self { position: [0.0; 3], turn: Quaternion::NONE };
 
-    /// Tells whether the position is finite and the quaternion of length 1, within 0.02.
+    /// Tells whether the position is finite and the quaternion one that tf2 takes.
     pub(crate) fn is_sound(&self) -> bool {
-        self.position.iter().all(|x| x.is_finite()) && self.turn.is_normal()
+        self.position.iter().all(|x| x.is_finite()) && self.turn.is_normal_in_tf2()
     }
 
     /// Returns the pose of what has the pose `part` in the frame of this body.

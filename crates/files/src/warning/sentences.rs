@@ -143,6 +143,19 @@ impl fmt::Display for Warning {
             Self::LaserTilted { degrees } => {
                 write!(f, "the laser is tilted by {degrees:.1} degrees: dropped, as scans lie in the plane")
             }
+            Self::FrameStaticAndMoving { ref frame } => write!(
+                f,
+                "frame {frame} is on /tf_static and on /tf: the poses of /tf hold, as in tf2 from its first message there on"
+            ),
+            Self::PosesOfLaser => write!(
+                f,
+                "TF moves the laser itself, whose poses these are: the mount that is given does not apply to them"
+            ),
+            Self::NoGreatestRange { count } => write!(
+                f,
+                "{count} scans have no greatest range: beams that did not return are left out, as nothing says how far space \
+                 is free"
+            ),
             Self::CloudsThinned => write!(
                 f,
                 "the scans are the points that Cartographer keeps, thinned out and without beams that did not return; beams \

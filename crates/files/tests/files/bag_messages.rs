@@ -1,6 +1,6 @@
 //! Messages of maps, put together byte by byte in MCAP: both orders of bytes, both serialisations, and what is refused.
 
-use mean_information_files::bags::{Change, MapSeries, read_stream};
+use mean_information_files::bags::{Change, MapSeries, MapTopic, read_stream};
 use mean_information_files::{Error, ErrorKind, Options, Place, Warning};
 use mean_information_test_support::formats::bag::{Writer, mcap_of, record, text};
 
@@ -64,7 +64,7 @@ type Row = (Vec<i8>, Change);
 /// The maps of a bag.
 fn maps(bytes: &[u8], options: &Options) -> (Vec<Row>, Result<Vec<Warning>, Error>) {
     let mut maps = Vec::new();
-    let mut series = MapSeries::new("/map", options, |map| {
+    let mut series = MapSeries::new(&MapTopic::default(), options, |map| {
         assert_eq!((map.time_ns, map.geometry.resolution()), (2500, 0.25));
         assert_eq!((map.geometry.origin(), map.geometry.yaw()), ([0.5, -2.0], 0.0));
         maps.push((map.cells.to_vec(), map.change));
@@ -234,4 +234,42 @@ fn messages_of_another_type_than_their_topic_says() {
     assert_eq!(error.kind(), ErrorKind::Format);
     assert!(matches!(error.place(), Some(Place::Message { number: 2, byte: Some(_), .. })), "{error:?}");
     assert!(line.starts_with("message 2 of /map, byte 16 of it: has a field of "), "{line}");
+}
+
+/// Which topic is meant is known when the bag is read, once: the first that may be is followed.
+#[test]
+fn the_topic_that_is_meant_is_found_while_the_bag_is_read() {
+    let topics = [
+        (9, "/costmap", TOPICS[0].2),
+        (5, "/b_updates", TOPICS[1].2),
+        (7, "/a", TOPICS[0].2),
+        (8, "/a_updates", TOPICS[1].2),
+        (4, "/b", TOPICS[0].2),
+    ];
+    let read = |topics: &[(u16, &str, &str)], wanted: &MapTopic, messages: &[(u16, Vec<u8>)]| {
+        let bytes = mcap_of("cdr", topics, messages);
+        let mut changes = Vec::new();
+        let mut series = MapSeries::new(wanted, &Options::default(), |map| changes.push(map.change));
+        read_stream(&*bytes, bytes.len() as u64, &Options::default(), &mut series).unwrap();
+        let topic = series.topic().map(str::to_owned).map_err(|error| (error.kind(), error.to_string()));
+        let warnings = series.warnings();
+        drop(series);
+        (topic, warnings, changes)
+    };
+    let (of_a, of_b) = (update([0, 0], [1, 1], &[9]), (5, update([0, 0], [1, 1], &[9]).1));
+    let messages = [of_b, (9, grid()), (7, grid()), of_a, (4, grid())];
+    let (topic, _, _) = read(&topics, &MapTopic::default(), &messages);
+    let words = "has several topics of maps; topics of its maps are: /a, /b, /costmap".to_owned();
+    assert_eq!(topic, Err((ErrorKind::Choice, words)));
+    let changes = [Change::First, Change::Cells(1)];
+    // Of updates of another topic nothing is said.
+    let (topic, warnings, found) = read(&topics[..4], &MapTopic::default(), &messages[..4]);
+    assert_eq!((topic.as_deref(), &*warnings, &*found), (Ok("/a"), &[][..], &changes[..]));
+    let (topic, warnings, found) = read(&topics, &MapTopic::named("/b"), &messages);
+    let early = [Warning::UpdatesBeforeMap { count: 1 }];
+    assert_eq!((topic.as_deref(), &*warnings, &*found), (Ok("/b"), &early[..], &changes[..1]));
+    let (topic, _, found) = read(&topics, &MapTopic::named("/costmap"), &messages);
+    assert!(topic.is_err_and(|(_, line)| line.contains("carries costmaps")) && found.is_empty());
+    let (topic, _, _) = read(&topics, &MapTopic::named("/a"), &messages[..2]);
+    assert_eq!(topic, Err((ErrorKind::Format, "has no message of topic /a".to_owned())));
 }

@@ -1,41 +1,19 @@
 //! Scans of bags with the transforms and poses beside them, put together byte by byte.
 
 use crate::scan_bag::{
-    AHEAD, AMCL, Bag, HALF, LEFT, ODOM, PLAIN, POSE, SCAN, STATIC, TF, TOPICS, assert_pose,
+    AHEAD, AMCL, Bag, LEFT, ODOM, PLAIN, POSE, SCAN, STATIC, TF, TOPICS, assert_pose, log, log_of, log_with,
+    named,
 };
 use mean_information::scan::Pose;
-use mean_information_files::bags::{read_stream, scans_of};
+use mean_information_files::bags::{Visitor, read_stream, scans_of};
 use mean_information_files::scans::{Reading, ScanLog, ScanOptions, Selection};
 use mean_information_files::{Error, ErrorKind, Options, Place, Warning};
 use mean_information_test_support::formats::bag::mcap_of;
-
-fn log_with(encoding: &str, messages: &[(u16, Vec<u8>)], selection: &Selection) -> Result<ScanLog, Error> {
-    let bytes = mcap_of(encoding, &TOPICS, messages);
-    log_of(&bytes, selection)
-}
-
-fn log_of(bytes: &[u8], selection: &Selection) -> Result<ScanLog, Error> {
-    let options = Options::default();
-    scans_of(
-        |visitor| read_stream(bytes, bytes.len() as u64, &options, visitor),
-        &ScanOptions::default(),
-        selection,
-    )
-}
-
-fn log(messages: &[(u16, Vec<u8>)]) -> Result<ScanLog, Error> {
-    log_with("cdr", messages, &Selection::default())
-}
 
 fn refused(messages: &[(u16, Vec<u8>)], selection: &Selection) -> (Error, String) {
     let error = log_with("cdr", messages, selection).unwrap_err();
     let line = error.to_string();
     (error, line)
-}
-
-fn named(frames: &[&str], pose_topics: &[&str]) -> Selection {
-    let owned = |names: &[&str]| names.iter().map(|&name| name.to_owned()).collect();
-    Selection { frames: Some(owned(frames)), pose_topics: owned(pose_topics), ..Selection::default() }
 }
 
 #[test]
@@ -121,22 +99,6 @@ fn a_step_of_transforms_is_never_extrapolated() {
     assert_eq!(error.kind(), ErrorKind::OutOfRange);
     let expected = "TF has no pose of base in map at the time of a scan: the scans span 6.25 to 6.25 s, TF spans 5 to 6 s";
     assert_eq!(line, expected);
-}
-
-#[test]
-fn a_laser_upside_down_has_its_bearings_turned() {
-    // Half round about x; then, on the robot, a quarter to the left.
-    let down = PLAIN.tf(STATIC, &[(0, "base", "laser", [0.5, 0.25, 0.0], [HALF, HALF, 0.0, 0.0])]);
-    let found = log(&[down, PLAIN.scan(22), PLAIN.moving()]).unwrap();
-    assert_pose(&found.mount.unwrap(), [0.5, 0.25, std::f64::consts::FRAC_PI_2]);
-    assert_eq!([0, 2].map(|beam| found.scans[0].bearings().at(beam)), [0.5, 0.0]);
-    assert_eq!(found.warnings, []);
-    // 2 atan(0.1) = 11.42 degrees of pitch.
-    let pitched = PLAIN.tf(STATIC, &[(0, "base", "laser", [0.5, 0.25, 0.0], [0.0, 0.0995, 0.0, 0.995])]);
-    let found = log(&[pitched, PLAIN.scan(22), PLAIN.moving()]).unwrap();
-    let [Warning::LaserTilted { degrees }] = *found.warnings else { panic!("{:?}", found.warnings) };
-    assert!((degrees - 11.42).abs() < 0.01, "{degrees}");
-    assert_eq!(found.scans[0].bearings().at(0), -0.5);
 }
 
 #[test]
@@ -254,7 +216,7 @@ fn messages_that_are_none() {
         (
             PLAIN.pose(ODOM, 20, "base", [1.0, f64::INFINITY], AHEAD),
             "message 1 of /odom, byte 36 of it: the pose, of which the quaternion has the length is 1, allowed is a finite \
-             position, and a quaternion of length 1, within 0.02",
+             position, and a quaternion whose squared length is 1, within 0.01, as in tf2",
         ),
     ] {
         assert_eq!(refused(&[message], &all).1, line);
@@ -291,4 +253,57 @@ fn the_only_topic_of_scans_and_transforms_of_its_namespace() {
     assert_pose(&found.trajectories[0].trajectory.poses()[0], [7.0, 7.0, 0.0]);
     let line = log_of(&bytes, &named("/c/scan")).unwrap_err().to_string();
     assert!(line.starts_with("has no topic /c/scan of type sensor_msgs/LaserScan; topics of its"), "{line}");
+}
+
+/// A bag whose header stamps are all 0 was recorded by a driver that sets none.
+#[test]
+fn messages_that_nobody_stamped() {
+    let scans = [PLAIN.scan(0), PLAIN.scan(0), PLAIN.scan(0)];
+    let (error, line) =
+        refused(&[&scans[..], &[PLAIN.moving(), PLAIN.mount()]].concat(), &Selection::default());
+    let expected = "has scans on /scan that all have the time 0: nothing stamped their headers; allowed are stamps by \
+                    the clock of the poses";
+    assert_eq!((error.kind(), &*line), (ErrorKind::OutOfRange, expected));
+    let poses = [0, 0].map(|quarters| PLAIN.pose(POSE, quarters, "", [0.0; 2], AHEAD));
+    let (_, line) =
+        refused(&[&[PLAIN.scan(24), PLAIN.mount()], &poses[..]].concat(), &named(&[], &["/pose"]));
+    assert!(line.starts_with("has poses on /pose that all have the time 0: nothing stamped"), "{line}");
+    // One scan at 0, as a simulation begins, is a scan.
+    assert_eq!(log(&[PLAIN.scan(0), PLAIN.scan(22), PLAIN.moving(), PLAIN.mount()]).unwrap().scans.len(), 2);
+}
+
+/// REP 117: `range_max` may be infinite. Then no finite range is beyond it, and an infinite one says nothing of free space.
+#[test]
+fn a_laser_without_a_greatest_range() {
+    let (id, mut bytes) = PLAIN.scan_of(22, "laser", [0.0, 0.25, 0.0], &[1.5, f32::INFINITY, 90.0, -1.0]);
+    let at = bytes.windows(4).position(|four| four == 8_f32.to_le_bytes()).unwrap();
+    bytes[at..at + 4].copy_from_slice(&f32::INFINITY.to_le_bytes());
+    let messages = [(id, bytes), PLAIN.moving(), PLAIN.mount()];
+    let found = log(&messages).unwrap();
+    let [near, far] = [Reading::Return(1.5), Reading::Return(90.0)];
+    let readings = |log: &ScanLog| log.scans[0].readings().collect::<Vec<_>>();
+    assert_eq!(readings(&found), [near, Reading::Invalid, far, Reading::Invalid]);
+    assert_eq!(found.warnings, [Warning::NoGreatestRange { count: 1 }]);
+    // The caller's own makes it no return from within.
+    let bytes = mcap_of("cdr", &TOPICS, &messages);
+    let options = ScanOptions { maximum_range: Some(30.0), ..ScanOptions::default() };
+    let read =
+        |visitor: &mut dyn Visitor| read_stream(&*bytes, bytes.len() as u64, &Options::default(), visitor);
+    let found = scans_of(read, &options, &Selection::default()).unwrap();
+    let [none, wrong] = [Reading::NoReturn, Reading::Invalid];
+    assert_eq!((readings(&found), found.scans[0].limits()[1]), (vec![near, none, none, wrong], 30.0));
+    assert_eq!(found.warnings, []);
+}
+
+/// tf2 takes quaternions whose squared length is 1 within 0.01: 0.996 and 1.004 long, not 0.994 and 1.006.
+#[test]
+fn quaternions_that_tf2_takes() {
+    for (length, is_taken) in [(0.994, false), (0.9955, true), (1.0045, true), (1.006, false)] {
+        let mount = PLAIN.tf(STATIC, &[(0, "base", "laser", [0.5, 0.0, 0.0], [0.0, 0.0, 0.0, length])]);
+        let found = log_with("cdr", &[PLAIN.scan(22), PLAIN.moving(), mount], &named(&[], &[])).unwrap();
+        assert_eq!((found.mount.is_some(), found.warnings.is_empty()), (is_taken, is_taken), "{length}");
+        let pose = PLAIN.pose(ODOM, 22, "base", [1.0, 2.0], [0.0, 0.0, 0.0, length]);
+        let found = log_with("cdr", &[PLAIN.scan(22), PLAIN.mount(), pose], &named(&[], &["/odom"]));
+        assert_eq!(found.is_ok(), is_taken, "{length}");
+    }
 }

@@ -20,7 +20,7 @@ pub(crate) fn bag() -> Vec<(&'static str, Vec<u8>)> {
 }
 
 pub(crate) fn pbstream() -> Vec<(&'static str, Vec<u8>)> {
-    let whole = state(&[integer(1, 2), submap(&grid(&[0, 1, 32767, 32769, 32768, 20000], b""))]);
+    let whole = state(&[submap(&grid(&[0, 1, 32767, 32769, 32768, 20000], b""))]);
     let many = message(3, &[&integer(1, 1 << 40), &integer(2, 1 << 40)]);
     let claims_more =
         state(&[submap(&message(4, &[&message(1, &[&[0x09], &0.25_f64.to_le_bytes(), &many])]))]);

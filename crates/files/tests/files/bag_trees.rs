@@ -1,6 +1,6 @@
 //! Octrees in bags: messages without a head, the same trees as in files.
 
-use mean_information_files::bags::{AnyMapTopic, MapTopic, any_map_topic, last_octree};
+use mean_information_files::bags::{AnyMap, MapTopic, Visitor, last_map_of_any_kind, octree_of, read_bag};
 use mean_information_files::octree::{self, Leaf, Octant, Octree, OctreeVisitor};
 use mean_information_files::{Error, ErrorKind, Options, Place};
 use mean_information_test_support::formats::bag::{Writer, mcap_of};
@@ -43,7 +43,9 @@ fn bag(folder: &Folder, encoding: &str, messages: &[Vec<u8>]) -> PathBuf {
 
 fn last(path: &Path) -> (Result<Octree, Error>, Leaves) {
     let mut leaves = Leaves::default();
-    (last_octree(path, "/octomap", &Options::default(), &mut leaves), leaves)
+    let options = Options::default();
+    let read = |visitor: &mut dyn Visitor| read_bag(path, &options, visitor);
+    (octree_of(read, "/octomap", &mut leaves), leaves)
 }
 
 /// The head of a file and its nodes.
@@ -68,10 +70,14 @@ fn a_message_is_the_tree_of_the_file() {
         let messages = [vec![], nodes.clone()].map(|nodes| message(ros1, false, "OcTree", 0.25, &nodes));
         let path = bag(&folder, if ros1 { "ros1" } else { "cdr" }, &messages);
         let (found, leaves) = last(&path);
-        assert_eq!(found.unwrap(), Octree { files: vec![path.clone()], ..tree.clone() });
+        assert_eq!(found.unwrap(), tree);
         assert_eq!(leaves, expected);
-        let chosen = any_map_topic(&path, &MapTopic::default()).unwrap();
-        assert_eq!(chosen, AnyMapTopic::Octrees("/octomap".to_owned()));
+        // The only topic of maps.
+        let chosen = last_map_of_any_kind(&path, &MapTopic::default(), &Options::default()).unwrap();
+        let AnyMap::Octree(message) = chosen else { panic!("{chosen:?}") };
+        let (mut leaves, files) = (Leaves::default(), vec![path.clone()]);
+        assert_eq!(message.read(&mut leaves).unwrap(), Octree { files, ..tree.clone() });
+        assert_eq!((message.topic(), &leaves), ("/octomap", &expected));
     }
     // A root whose first child is free and second occupied; and no node at all.
     let path = bag(&folder, "cdr", &[message(false, true, "OcTree", 0.25, &[0b1001, 0])]);
@@ -144,7 +150,7 @@ fn messages_that_are_no_trees() {
         let error = last(&path).0.unwrap_err();
         let place = Place::Message { topic: "/octomap".to_owned(), number: 1, byte: Some(byte) };
         assert_eq!((error.kind(), error.place()), (kind, Some(&place)), "{error}");
-        let begins = format!("{}: message 1 of /octomap, byte {byte} of it: {line}", path.display());
+        let begins = format!("message 1 of /octomap, byte {byte} of it: {line}");
         assert!(error.to_string().starts_with(&begins), "{error}");
     }
     let path = bag(&folder, "cdr", &[]);

@@ -1,7 +1,7 @@
 //! Bags: those that `tests/bags/make.py` wrote by another writer, and such as must be refused.
 
 use mean_information_files::bags::{
-    Change, MapSeries, MapTopic, Snapshot, Visitor, last_map, map_topic, read_bag, read_stream,
+    Change, MapSeries, MapTopic, Snapshot, Visitor, bag_files, last_map, read_bag, read_stream,
 };
 use mean_information_files::{
     Cells, Error, ErrorKind, Memory, Options, Place, Warning, read_map, read_map_from,
@@ -55,7 +55,8 @@ fn series(
         map.cells.iter().for_each(|&cell| *counts.entry(cell).or_default() += 1);
         rows.push((map.time_ns, [map.width, map.height], counts, map.change));
     };
-    let warnings = read(&mut MapSeries::new("/map", &Options::default(), each));
+    // The only topic that is no costmap.
+    let warnings = read(&mut MapSeries::new(&MapTopic::default(), &Options::default(), each));
     (rows, warnings)
 }
 
@@ -112,17 +113,18 @@ fn every_container_gives_the_counts_of_numpy() {
 fn the_last_map_of_the_only_topic_that_is_no_costmap() {
     for name in bags() {
         let path = bag(name);
-        assert_eq!(map_topic(&path, &MapTopic::default()).unwrap(), "/map");
         let map = read_map(&path, &Options::default()).unwrap();
         let Cells::Percent(grid) = &map.cells else { panic!("{name}") };
         assert_eq!((grid.width(), grid.height()), (5, 9), "{name}");
-        assert_eq!((map.warnings, map.files), (vec![], vec![path.clone()]));
+        assert_eq!((map.warnings, &map.files), (vec![], &bag_files(&path).unwrap()));
+        assert!(map.files.iter().all(|file| file.is_file()) && map.files[0].starts_with(&path));
 
-        let costmap = last_map(&path, "/global_costmap/costmap", &Options::default()).unwrap();
+        let mut named = MapTopic { costmaps: true, ..MapTopic::named("/global_costmap/costmap") };
+        let costmap = last_map(&path, &named, &Options::default()).unwrap();
         let Cells::Percent(grid) = &costmap.cells else { panic!("{name}") };
         assert_eq!(grid.cells(), [99, 0]);
-        let named = MapTopic { name: Some("/global_costmap/costmap".to_owned()), costmaps: false };
-        let error = map_topic(&path, &named).unwrap_err();
+        named.costmaps = false;
+        let error = last_map(&path, &named, &Options::default()).unwrap_err();
         assert_eq!((error.kind(), error.file()), (ErrorKind::Choice, Some(&*path)));
     }
 }

@@ -2,6 +2,9 @@
 
 mod arrays;
 mod bad;
+mod bag_bounds;
+mod bag_folders;
+mod bag_lasers;
 mod bag_messages;
 mod bag_scans;
 mod bag_seeds;

@@ -5,7 +5,9 @@ use mean_information::map::Encoding;
 use mean_information::map::encoding::Probability;
 use mean_information_files::pbstream::{Submap, read};
 use mean_information_files::{Error, ErrorKind, Options, Place, read_submaps};
-use mean_information_test_support::formats::pbstream::{grid, integer, message, state, submap};
+use mean_information_test_support::formats::pbstream::{
+    first_record, grid, integer, message, state, stream, submap,
+};
 use mean_information_test_support::formats::shared_data;
 
 /// Width, height, known cells, cells above 1/2, mean information.
@@ -68,7 +70,7 @@ fn refused(bytes: &[u8], kind: ErrorKind) -> String {
 fn values_become_probabilities_in_single_precision() {
     let costs = [&[0x35][..], &0.25_f32.to_le_bytes(), &[0x3d], &0.75_f32.to_le_bytes()].concat();
     let cells = [0, 1, 32767, 32768 + 1, 32768, 20000];
-    let found = submaps(&state(&[integer(1, 2), submap(&grid(&cells, &costs))])).unwrap();
+    let found = submaps(&state(&[submap(&grid(&cells, &costs))])).unwrap();
     let [submap] = &*found else { panic!("{found:?}") };
     assert_eq!((submap.trajectory, submap.index, submap.is_finished), (2, 5, true));
     assert_eq!((submap.resolution, submap.clamp), (0.25, [0.25, 0.75]));
@@ -86,15 +88,16 @@ fn states_that_are_none() {
     assert!(refused(b"P5 3 2 255\n", ErrorKind::Format).contains("no saved state of Cartographer"));
     let whole = state(&[submap(&grid(&[7; 6], b""))]);
     let error = submaps(&whole[..whole.len() - 9]).unwrap_err();
-    assert_eq!((error.kind(), error.place()), (ErrorKind::CutShort, Some(&Place::Byte(8))));
-    assert!(error.to_string().starts_with("record at byte 8: claims "), "{error}");
+    let first = first_record();
+    assert_eq!((error.kind(), error.place()), (ErrorKind::CutShort, Some(&Place::Byte(first))));
+    assert!(error.to_string().starts_with(&format!("record at byte {first}: claims ")), "{error}");
     for (cells, kind, words) in [
         (&[7; 5][..], ErrorKind::Format, "submap 2, 5: has 5 cells, allowed are 3 x 2"),
         (&[7, 7, 65536, 7, 7, 7], ErrorKind::OutOfRange, "cell 2 is 65536, allowed is 0 to 65535"),
         (&[u64::MAX; 6], ErrorKind::OutOfRange, "cell 0 is -1, allowed is 0 to 65535"),
     ] {
         let line = refused(&state(&[submap(&grid(cells, b""))]), kind);
-        assert_eq!(line, format!("record at byte 8: {words}"));
+        assert_eq!(line, format!("record at byte {first}: {words}"));
     }
     let tsdf = message(5, &[]);
     let line = refused(&state(&[submap(&grid(&[7; 6], &tsdf))]), ErrorKind::Unsupported);
@@ -113,4 +116,20 @@ fn states_that_are_none() {
     let many = message(3, &[&integer(1, 1 << 40), &integer(2, 1 << 40)]);
     let large = message(4, &[&message(1, &[&[0x09], &0.25_f64.to_le_bytes(), &many])]);
     assert!(refused(&state(&[submap(&large)]), ErrorKind::TooLarge).contains("more than the limit of 1000"));
+}
+
+#[test]
+fn the_header_says_which_format() {
+    let record = submap(&grid(&[7; 6], b""));
+    for version in [1, 2] {
+        assert_eq!(submaps(&stream(&[integer(1, version), record.clone()])).unwrap().len(), 1);
+    }
+    let line = refused(&stream(&[integer(1, 3), record.clone()]), ErrorKind::Unsupported);
+    assert_eq!(line, "record at byte 8: is of format version 3, allowed are 1 and 2");
+    // Before Cartographer 1.0 a state begins with its pose graph.
+    for old in [record.clone(), message(4, &[&integer(3, 0)]), vec![]] {
+        let line = refused(&stream(&[old, record.clone()]), ErrorKind::Unsupported);
+        assert!(line.starts_with("record at byte 8: has no header, as states from before"), "{line}");
+        assert!(line.contains("`cartographer_pbstream migrate OLD NEW`"), "{line}");
+    }
 }

@@ -1,6 +1,9 @@
 //! The messages of a bag with a robot and its laser.
 
 use mean_information::scan::Pose;
+use mean_information_files::bags::{read_stream, scans_of};
+use mean_information_files::scans::{ScanLog, ScanOptions, Selection};
+use mean_information_files::{Error, Options};
 use mean_information_test_support::formats::bag::{Writer, mcap_of};
 
 pub(crate) const SCAN: u16 = 1;
@@ -21,6 +24,33 @@ pub(crate) const HALF: f64 = std::f64::consts::FRAC_1_SQRT_2;
 pub(crate) const AHEAD: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
 /// A quarter turn to the left.
 pub(crate) const LEFT: [f64; 4] = [0.0, 0.0, HALF, HALF];
+
+pub(crate) fn log_with(
+    encoding: &str,
+    messages: &[(u16, Vec<u8>)],
+    selection: &Selection,
+) -> Result<ScanLog, Error> {
+    let bytes = mcap_of(encoding, &TOPICS, messages);
+    log_of(&bytes, selection)
+}
+
+pub(crate) fn log_of(bytes: &[u8], selection: &Selection) -> Result<ScanLog, Error> {
+    let options = Options::default();
+    scans_of(
+        |visitor| read_stream(bytes, bytes.len() as u64, &options, visitor),
+        &ScanOptions::default(),
+        selection,
+    )
+}
+
+pub(crate) fn log(messages: &[(u16, Vec<u8>)]) -> Result<ScanLog, Error> {
+    log_with("cdr", messages, &Selection::default())
+}
+
+pub(crate) fn named(frames: &[&str], pose_topics: &[&str]) -> Selection {
+    let owned = |names: &[&str]| names.iter().map(|&name| name.to_owned()).collect();
+    Selection { frames: Some(owned(frames)), pose_topics: owned(pose_topics), ..Selection::default() }
+}
 
 /// Asserts a pose within a dozen roundings.
 pub(crate) fn assert_pose(pose: &Pose, expected: [f64; 3]) {

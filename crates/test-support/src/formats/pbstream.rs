@@ -39,8 +39,18 @@ pub fn submap(of_plane: &[u8]) -> Vec<u8> {
     message(3, &[&message(1, &[&integer(1, 2), &integer(2, 5)]), &message(2, &[&integer(3, 1), of_plane])])
 }
 
-/// Writes a state of these records.
+/// Writes a state of a header of format version 2 and these records.
 pub fn state(records: &[Vec<u8>]) -> Vec<u8> {
+    stream(&[&[integer(1, 2)], records].concat())
+}
+
+/// Returns the byte at which the records of a [`state`] begin.
+pub fn first_record() -> u64 {
+    state(&[]).len() as u64
+}
+
+/// Writes a state of these records, of which the first is to be the header.
+pub fn stream(records: &[Vec<u8>]) -> Vec<u8> {
     let mut bytes = MAGIC.to_vec();
     for record in records {
         let packed = gzip(record);

@@ -1,7 +1,9 @@
 //! Bags and saved states: each is read or refused, and a bag that was cut is read up to the cut.
 
 use super::scans::{check_scan, check_trajectory};
-use mean_information_files::bags::{MapSeries, Message, Topic, Visitor, octree_of, read_stream, scans_of};
+use mean_information_files::bags::{
+    MapSeries, MapTopic, Message, Topic, Visitor, octree_of, read_stream, scans_of,
+};
 use mean_information_files::octree::{Leaf, Octant, OctreeVisitor};
 use mean_information_files::scans::{ScanLog, ScanOptions, Selection};
 use mean_information_files::{Error, Options, pbstream as states};
@@ -48,7 +50,7 @@ pub fn bag(bytes: &[u8]) {
     let whole = messages(bytes);
     let cut = messages(&bytes[..bytes.len() - bytes.len() / 3]);
     assert!(cut.len() <= whole.len() && cut == whole[..cut.len()]);
-    let mut series = MapSeries::new("/map", &options(), |map| {
+    let mut series = MapSeries::new(&MapTopic::named("/map"), &options(), |map| {
         assert_eq!(map.cells.len(), map.width * map.height);
         assert!(map.cells.len() as u64 <= MAX_CELLS);
         assert!(map.cells.iter().all(|cell| (-1..=100).contains(cell)));

@@ -42,5 +42,7 @@ fn a_jump_is_found_where_it_is() {
 
 #[test]
 fn a_drift_is_everywhere() {
-    assert!(said(ODOMETRY).contains("from room.true.tum all along the log: no part of 20 has more than "));
+    assert!(
+        said(ODOMETRY).contains("from room.true.tum all along the log: of its 20 parts none has more than ")
+    );
 }

@@ -1,9 +1,9 @@
 //! The conflict map: where the scans of a map contradict one another, over a faint picture of the map.
 
-use super::bitmap::Bitmap;
-use super::map_picture::{Key, MapPicture, PATH, block};
+use super::map_picture::{Key, MapPicture, block};
 use super::panels::{MapPanel, colour as map_colour};
 use super::scale::ticks;
+use super::timed_path::{TimedPath, colour as path_colour};
 use crate::failure::Failure;
 use mean_information::Real;
 use mean_information::map::encoding::LogOdds;
@@ -23,7 +23,7 @@ pub struct ConflictMap {
     /// The contradiction of the darkest colour, in nats.
     top: f64,
     geometry: mean_information::map::Geometry,
-    path: Vec<[f64; 2]>,
+    path: TimedPath,
 }
 
 /// Returns a scale for the contradictions of several maps, in nats: 99 % of those above 0 are within it.
@@ -36,8 +36,8 @@ pub fn conflict_scale<'a>(layers: impl IntoIterator<Item = &'a Layer<f64>>) -> f
 }
 
 impl ConflictMap {
-    /// Colours the cells of a map on the scale of [`conflict_scale`]; `path` has the positions of the laser, in metres.
-    pub fn new(grid: &Grid<LogOdds<f64>>, layer: &Layer<f64>, top: f64, path: Vec<[f64; 2]>) -> Self {
+    /// Colours the cells of a map on the scale of [`conflict_scale`]; `path` is that of the laser.
+    pub fn new(grid: &Grid<LogOdds<f64>>, layer: &Layer<f64>, top: f64, path: TimedPath) -> Self {
         let size = [grid.width(), grid.height()];
         let block = block(size);
         let columns = size[0].div_ceil(block);
@@ -62,21 +62,23 @@ impl ConflictMap {
         Self { size, squares, top, geometry: *grid.geometry(), path }
     }
 
-    /// Draws the picture, under two lines of title.
-    ///
-    /// # Errors
-    /// None is known, but for a map without cells.
-    pub(super) fn draw(&self, titles: &[String; 2]) -> Result<Bitmap, Failure> {
+    /// Returns the picture without its titles.
+    pub(super) fn picture(&self) -> MapPicture {
         let key = Key {
             title: "contradiction (nats per cell)",
             gradient: colour,
             ticks: ticks(0.0, self.top, 5).into_iter().map(|(nats, text)| (nats / self.top, text)).collect(),
-            swatches: vec![("none", faint(Some(0.0))), ("unknown", faint(None)), ("path", PATH)],
+            swatches: vec![
+                ("none", faint(Some(0.0))),
+                ("unknown", faint(None)),
+                ("path: first", path_colour(0.0)),
+                ("path: last", path_colour(1.0)),
+            ],
             reduction: "the greatest of them",
         };
         let resolution = Some(self.geometry.resolution());
         let picture = MapPicture::new(self.size, &self.geometry, resolution, self.squares.clone(), key);
-        picture.with_path(self.path.clone()).draw(titles)
+        picture.with_path(self.path.clone())
     }
 
     /// Returns the panel of a page.
@@ -121,7 +123,7 @@ mod tests {
         let (grid, layer) = (map.log_odds().unwrap(), map.contradictions().unwrap().unwrap());
         let top = conflict_scale([&layer]);
         assert_eq!(top, 2.0 * 1.0986122886681098); // 2 ln 3
-        let map = ConflictMap::new(&grid, &layer, top, vec![[0.13, 0.12]]);
+        let map = ConflictMap::new(&grid, &layer, top, TimedPath::new(vec![(0.0, [0.13, 0.12])]));
         let free = faint(grid.cells().first().and_then(|&l| LogOdds::occupancy(l)));
         assert_eq!(map.squares[0], free);
         assert_eq!(map.squares[2], colour(1.0));

@@ -4,6 +4,7 @@ use super::bitmap::Bitmap;
 use super::canvas::Canvas;
 use super::drawing::{LABEL, TITLE, drawing_failure};
 use super::scale::ticks;
+use super::timed_path::{TimedPath, colour as path_colour};
 use crate::failure::Failure;
 use mean_information::map::Geometry;
 use plotters::prelude::*;
@@ -27,9 +28,6 @@ const RIGHT: i32 = 96;
 const LEAST_BAR: i32 = 250;
 const SWATCH: i32 = 22;
 
-/// The colour of a path.
-pub(super) const PATH: [u8; 3] = [11, 98, 196];
-
 /// A map as squares of colour: one per cell, or one per block of cells if it is large.
 #[derive(Debug)]
 pub(super) struct MapPicture {
@@ -46,8 +44,7 @@ pub(super) struct MapPicture {
     /// The lower left corner, in metres.
     corner: [f64; 2],
     key: Key,
-    /// Positions in metres; the first has a dot.
-    path: Vec<[f64; 2]>,
+    path: TimedPath,
 }
 
 /// The key to the colours.
@@ -123,12 +120,17 @@ impl MapPicture {
             ],
             corner: geometry.origin(),
             key,
-            path: Vec::new(),
+            path: TimedPath::default(),
         }
     }
 
-    /// Draws a path through these positions, in metres.
-    pub(super) fn with_path(self, path: Vec<[f64; 2]>) -> Self {
+    /// Draws a cell of `zoom` x `zoom` pixels, if a square is one cell.
+    pub(super) fn with_zoom(self, zoom: usize) -> Self {
+        Self { zoom, ..self }
+    }
+
+    /// Draws a path.
+    pub(super) fn with_path(self, path: TimedPath) -> Self {
         Self { path, ..self }
     }
 
@@ -145,6 +147,7 @@ impl MapPicture {
         self.paint_squares(&mut image, &places);
         self.paint_key(&mut image, &places);
         self.write_labels(&mut image, &places, titles).map_err(drawing_failure)?;
+        self.draw_path(&mut image, &places).map_err(drawing_failure)?;
         Ok(image)
     }
 
@@ -234,18 +237,42 @@ impl MapPicture {
             frame(places.bar_left, top, BAR_WIDTH, SWATCH)?;
             label((bar_right + 8, top + SWATCH / 2), HPos::Left, VPos::Center, name)?;
         }
-        if !self.path.is_empty() {
-            // From the corner, wherever the labels of an axis begin.
-            let at = |&[x, y]: &[f64; 2]| {
-                let (x, y) = (x - self.corner[0], y - self.corner[1]);
-                (
-                    LEFT + along(x, x_axis.extent, places.width),
-                    bottom - 1 - along(y, y_axis.extent, places.height),
-                )
-            };
-            let style = RGBColor(PATH[0], PATH[1], PATH[2]).stroke_width(2);
-            paper.draw(&PathElement::new(self.path.iter().map(at).collect::<Vec<_>>(), style))?;
-            paper.draw(&Circle::new(at(&self.path[0]), 5, style.filled()))?;
+        Ok(())
+    }
+
+    fn draw_path(
+        &self,
+        image: &mut Bitmap,
+        places: &Places,
+    ) -> Result<(), DrawingAreaErrorKind<std::convert::Infallible>> {
+        let paper = Canvas::new(image).into_drawing_area();
+        let [x_axis, y_axis] = &self.axes;
+        // From the corner, wherever the labels of an axis begin.
+        let at = |&[x, y]: &[f64; 2]| {
+            let (x, y) = (x - self.corner[0], y - self.corner[1]);
+            (
+                LEFT + along(x, x_axis.extent, places.width),
+                TOP + places.height - 1 - along(y, y_axis.extent, places.height),
+            )
+        };
+        let style = |[r, g, b]: [u8; 3]| RGBColor(r, g, b).stroke_width(1);
+        for (colour, positions) in self.path.pieces() {
+            paper.draw(&PathElement::new(positions.iter().map(at).collect::<Vec<_>>(), style(colour)))?;
+        }
+        let dark = style(path_colour(0.0));
+        if let Some(first) = self.path.first() {
+            paper.draw(&Circle::new(at(&first), 5, dark.filled()))?;
+        }
+        for (position, text) in self.path.dots() {
+            let (x, y) = at(&position);
+            paper.draw(&Circle::new((x, y), 3, dark.filled()))?;
+            // A rim of white, so that the time can be read on any colour.
+            for (dx, dy, colour) in
+                [(-1, 0, WHITE), (1, 0, WHITE), (0, -1, WHITE), (0, 1, WHITE), (0, 0, BLACK)]
+            {
+                let font = LABEL.into_font().color(&colour).pos(Pos::new(HPos::Left, VPos::Center));
+                paper.draw(&Text::new(text.as_str(), (x + 6 + dx, y + dy), font))?;
+            }
         }
         Ok(())
     }

@@ -19,6 +19,7 @@ mod series;
 mod side_by_side;
 mod svg;
 mod sweep;
+mod timed_path;
 
 pub use chart::{Chart, ChartPanel, Colour, Curve, Scale};
 pub use conflict_map::{ConflictMap, conflict_scale};
@@ -31,3 +32,4 @@ pub use scatter::{Cloud, Scatter};
 pub use series::SeriesPlot;
 pub use svg::{Sheet, Svg};
 pub use sweep::SweepPlot;
+pub use timed_path::TimedPath;

@@ -2,8 +2,9 @@
 
 use super::bitmap::Bitmap;
 use super::drawing::drawing_failure;
-use super::map_picture::{PATH as PATH_LINE, block};
+use super::map_picture::block;
 use super::svg::Svg;
+use super::timed_path::{TimedPath, colour as path_colour};
 use crate::failure::Failure;
 use crate::output::short;
 use base64::Engine;
@@ -36,8 +37,7 @@ pub struct MapPanel {
     extent: [f64; 4],
     /// The places of the sensor, in metres.
     places: Vec<[f64; 2]>,
-    /// The path of the sensor, in metres.
-    path: Vec<[f64; 2]>,
+    path: TimedPath,
 }
 
 impl MapPanel {
@@ -89,7 +89,14 @@ impl MapPanel {
         let (side, [left, lower]) = (geometry.resolution(), geometry.origin());
         let extent = [left, lower, left + width as f64 * side, lower + height as f64 * side];
         let png = picture.png().map_err(drawing_failure)?;
-        Ok(Self { title: title.to_owned(), text, png, extent, places: Vec::new(), path: Vec::new() })
+        Ok(Self {
+            title: title.to_owned(),
+            text,
+            png,
+            extent,
+            places: Vec::new(),
+            path: TimedPath::default(),
+        })
     }
 
     /// Marks where the sensor was.
@@ -98,9 +105,9 @@ impl MapPanel {
         Self { places, ..self }
     }
 
-    /// Draws the path of the sensor through these positions, in metres; the first has a dot.
+    /// Draws the path of the sensor; the first position has a dot, some others have one with their time.
     #[must_use]
-    pub fn with_path(self, path: Vec<[f64; 2]>) -> Self {
+    pub fn with_path(self, path: TimedPath) -> Self {
         Self { path, ..self }
     }
 }
@@ -151,16 +158,7 @@ impl MapPanel {
         for [px, py] in self.places.iter().map(|&place| at(place)) {
             sheet.add(&format!(r#"<circle cx="{px:.2}" cy="{py:.2}" r="5" fill="{PATH}"/>"#));
         }
-        if let Some(&first) = self.path.first() {
-            let [r, g, b] = PATH_LINE;
-            let points: Vec<_> = self.path.iter().map(|&place| at(place)).collect();
-            let points: Vec<_> = points.iter().map(|[px, py]| format!("{px:.1},{py:.1}")).collect();
-            let [px, py] = at(first);
-            sheet.add(&format!(
-                r#"<polyline points="{}" fill="none" stroke="rgb({r},{g},{b})" stroke-width="1.5" stroke-linejoin="round"/><circle cx="{px:.2}" cy="{py:.2}" r="4" fill="rgb({r},{g},{b})"/>"#,
-                points.join(" ")
-            ));
-        }
+        self.draw_path(&mut sheet, at);
         let y = TITLES + height + GAP;
         let metres = round_length(LEAST_BAR / scale);
         let bar = scale * metres;
@@ -172,6 +170,37 @@ impl MapPanel {
         let text = format!("{} m", short(metres));
         sheet.add_text(x + bar + 9.0 + 5.0 * text.len() as f64, y + 6.0, "normal", &text);
         sheet
+    }
+
+    /// Draws the path of the sensor; `at` has the place of a position on the sheet.
+    fn draw_path(&self, sheet: &mut Svg, at: impl Fn([f64; 2]) -> [f64; 2]) {
+        let css = |[r, g, b]: [u8; 3]| format!("rgb({r},{g},{b})");
+        for (colour, positions) in self.path.pieces() {
+            let points: Vec<_> = positions.into_iter().map(&at).collect();
+            let points: Vec<_> = points.iter().map(|[px, py]| format!("{px:.1},{py:.1}")).collect();
+            sheet.add(&format!(
+                r#"<polyline points="{}" fill="none" stroke="{}" stroke-linejoin="round"/>"#,
+                points.join(" "),
+                css(colour)
+            ));
+        }
+        let dark = css(path_colour(0.0));
+        let dot = |[px, py]: [f64; 2], radius: f64| {
+            format!(r#"<circle cx="{px:.2}" cy="{py:.2}" r="{radius}" fill="{dark}"/>"#)
+        };
+        if let Some(first) = self.path.first() {
+            sheet.add(&dot(at(first), 4.0));
+        }
+        for (position, text) in self.path.dots() {
+            let [px, py] = at(position);
+            sheet.add(&dot([px, py], 2.5));
+            // A rim of white, so that the time can be read on any colour.
+            sheet.add(&format!(
+                r#"<text x="{:.1}" y="{:.1}" font-family="sans-serif" font-size="13" fill="{dark}" stroke="rgb(255,255,255)" stroke-width="3" paint-order="stroke">{text}</text>"#,
+                px + 5.0,
+                py + 4.5
+            ));
+        }
     }
 }
 

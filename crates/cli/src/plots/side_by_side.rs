@@ -4,6 +4,7 @@ use super::bitmap::Bitmap;
 use super::conflict_map::ConflictMap;
 use super::drawing::drawing_failure;
 use super::heat_map::HeatMap;
+use super::map_picture::MapPicture;
 use crate::failure::Failure;
 
 /// The number of maps beside each other.
@@ -15,8 +16,7 @@ impl HeatMap {
     /// # Errors
     /// None is known, but for a map without cells.
     pub fn png_of_several(maps: Vec<(Self, [String; 2])>) -> Result<Vec<u8>, Failure> {
-        let pictures = maps.into_iter().map(|(map, titles)| map.into_picture().draw(&titles));
-        png(&pictures.collect::<Result<Vec<_>, _>>()?)
+        png(maps.into_iter().map(|(map, titles)| (map.into_picture(), titles)).collect())
     }
 }
 
@@ -26,13 +26,15 @@ impl ConflictMap {
     /// # Errors
     /// None is known, but for a map without cells.
     pub fn png_of_several(maps: &[(Self, [String; 2])]) -> Result<Vec<u8>, Failure> {
-        let pictures = maps.iter().map(|(map, titles)| map.draw(titles));
-        png(&pictures.collect::<Result<Vec<_>, _>>()?)
+        png(maps.iter().map(|(map, titles)| (map.picture(), titles.clone())).collect())
     }
 }
 
-/// Places pictures beside and below each other.
-fn png(pictures: &[Bitmap]) -> Result<Vec<u8>, Failure> {
+/// Draws pictures beside and below each other, their cells as large as those of the one with the smallest.
+fn png(maps: Vec<(MapPicture, [String; 2])>) -> Result<Vec<u8>, Failure> {
+    let zoom = maps.iter().map(|(map, _)| map.zoom).min().unwrap_or(1);
+    let pictures = maps.into_iter().map(|(map, titles)| map.with_zoom(zoom).draw(&titles));
+    let pictures = pictures.collect::<Result<Vec<_>, _>>()?;
     let width = |row: &[Bitmap]| row.iter().map(|picture| picture.size().0).sum::<u32>();
     let height = |row: &[Bitmap]| row.iter().map(|picture| picture.size().1).max().unwrap_or(0);
     let rows = || pictures.chunks(COLUMNS);

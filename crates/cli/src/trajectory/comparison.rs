@@ -1,6 +1,7 @@
 //! The rows of a comparison, one a trajectory, and their form as table, JSON and CSV.
 
 use super::common::{Candidate, Common};
+use super::contradictions::Contradiction;
 use super::labels::labels;
 use super::measure::{BLOCKS, Measured};
 use super::parting::Parting;
@@ -51,9 +52,10 @@ impl Comparison {
                 revisited: own.revisited(),
                 parting: Parting::of(common, index, order[0], BLOCKS).filter(|_| index != order[0]),
                 difference: if index == 0 { None } else { against(&measured[0], own) },
+                contradictions: own.contradictions.clone(),
                 warnings: candidate.warnings.clone(),
             };
-            row.warnings.extend(warnings::of_row(&row, measured[0].tally.observed()));
+            row.warnings.extend(warnings::of_row(&row, &measured[0]));
             let same = common.poses[..index].iter().position(|poses| *poses == common.poses[index]);
             row.warnings.extend(same.map(|same| warnings::identical(&candidates[same].name)));
             row
@@ -93,13 +95,23 @@ impl Comparison {
         self.rows.iter().filter_map(|row| Some((row.name.as_str(), parting(row)?))).collect()
     }
 
+    /// Says where the scans of a trajectory contradict one another most, with its name, if it is the only one: else the others
+    /// show where.
+    pub(super) fn contradictions(&self) -> Vec<(&str, String)> {
+        let alone = match &self.rows[..] {
+            [row] => &row.contradictions[..],
+            _ => &[],
+        };
+        alone.iter().map(|place| (self.rows[0].name.as_str(), place.in_words())).collect()
+    }
+
     /// Says what the maps were made of, in words.
     pub fn made_of(&self) -> [String; 2] {
         let Used { scans, scans_used, beams, setup, mount, .. } = &self.used;
         [
             format!("{scans_used} of {scans} scans with {beams} beams; {mount}"),
             format!(
-                "cells of {} m; sensor {}; readings up to {} nats; standard errors by {} blocks of scans",
+                "cells of {} m; sensor {}; readings up to {} nats; standard errors by leaving out each of {} parts of the log",
                 setup.resolution,
                 setup.sensor,
                 setup.reading_limit,
@@ -129,7 +141,7 @@ fn verdict([best, next]: [&str; 2], difference: &Difference) -> String {
 }
 
 impl Row {
-    fn record(&self, used: &Used) -> Record {
+    fn record(&self, used: &Used, verdict: Option<&str>) -> Record {
         let [width, height, resolution, measures @ ..] = self.measures.entries(Some(used.setup.resolution));
         let mut entries = vec![
             ("poses", Value::Text(self.name.clone())),
@@ -151,6 +163,12 @@ impl Row {
             ("agreement", Value::Computed(Some(Number::Double(self.agreement)))),
             ("difference", number(Difference::value)),
             ("standard_error", number(Difference::standard_error)),
+            ("partings", Value::Records(self.parting.iter().map(Parting::record).collect())),
+            (
+                "contradictions",
+                Value::Records(self.contradictions.iter().map(Contradiction::record).collect()),
+            ),
+            ("verdict", verdict.map_or(Value::Given(None), |verdict| Value::Text(verdict.to_owned()))),
             ("warnings", Value::Texts(used.warnings.iter().chain(&self.warnings).cloned().collect())),
         ]);
         Record(entries)
@@ -192,14 +210,15 @@ impl Report for Comparison {
     fn table(&self) -> String {
         let made_of = self.made_of();
         let made_of = made_of.iter().map(|note| (self.used.log.as_str(), note.as_str()));
-        let partings = self.partings();
-        let partings = partings.iter().map(|(name, parting)| (*name, parting.as_str()));
+        let mut places = self.partings();
+        places.extend(self.contradictions());
+        let places = places.iter().map(|(name, place)| (*name, place.as_str()));
         let text = table(Row::HEADS, self.rows.iter().map(|row| row.cells(&self.used)));
-        let text = with_notes(text, made_of.chain(self.notes()).chain(partings));
+        let text = with_notes(text, made_of.chain(self.notes()).chain(places));
         self.verdict.iter().fold(text, |text, verdict| text + &one_line(verdict) + "\n")
     }
 
     fn rows(&self) -> Vec<Record> {
-        self.rows.iter().map(|row| row.record(&self.used)).collect()
+        self.rows.iter().map(|row| row.record(&self.used, self.verdict.as_deref())).collect()
     }
 }

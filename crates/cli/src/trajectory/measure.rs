@@ -1,5 +1,6 @@
 //! What is measured of the map of one trajectory, and of those of several, by several threads.
 
+use super::contradictions::{Contradiction, contradictions};
 use super::setup::{Refused, Setup};
 use mean_information::map::Grid;
 use mean_information::map::encoding::LogOdds;
@@ -32,6 +33,8 @@ pub struct Measured {
     pub tally: Tally<f64>,
     /// The agreement of the scans.
     pub agreement: f64,
+    /// The places where scans contradict one another most, the worst first.
+    pub contradictions: Vec<Contradiction>,
     /// The tallies without one block of scans each: [`BLOCKS`] of them, or as many as scans.
     pub without: Vec<Tally<f64>>,
     /// The mean information after each scan, in bits per observed cell; empty unless wanted.
@@ -65,10 +68,12 @@ pub fn measure(
     let (mut map, series) = inserted(setup, records, poses, wanted.series, step)?;
     let tally = map.tally();
     // A map of ScanMap::with_agreement has both.
-    let contradictions = map.contradictions().map_err(at(0))?;
-    let size = contradictions.as_ref().map_or([0; 2], |layer| [layer.width(), layer.height()]);
+    let layer = map.contradictions().map_err(at(0))?;
+    let size = layer.as_ref().map_or([0; 2], |layer| [layer.width(), layer.height()]);
     let agreement = map.agreement().unwrap_or(1.0);
-    let layer = contradictions.filter(|_| wanted.pictures);
+    let worst = layer.as_ref().map(|layer| contradictions(setup, records, poses, layer, BLOCKS));
+    let contradictions = worst.transpose().map_err(at(0))?.unwrap_or_default();
+    let layer = layer.filter(|_| wanted.pictures);
     let pictures = layer.map(|layer| Ok((map.log_odds()?, layer))).transpose().map_err(at(0))?;
     let mut without = Vec::with_capacity(BLOCKS);
     for block in blocks(records.len(), BLOCKS) {
@@ -82,7 +87,7 @@ pub fn measure(
             step();
         }
     }
-    Ok(Measured { size, tally, agreement, without, series, pictures })
+    Ok(Measured { size, tally, agreement, contradictions, without, series, pictures })
 }
 
 /// Inserts the records into a map; with the mean information after each if `series`.

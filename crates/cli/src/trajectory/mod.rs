@@ -7,6 +7,7 @@
 
 mod common;
 mod comparison;
+mod contradictions;
 mod labels;
 mod measure;
 mod page;
@@ -20,6 +21,7 @@ mod warnings;
 
 pub use common::{Candidate, Common, far_pose};
 pub use comparison::Comparison;
+pub use contradictions::Contradiction;
 pub use labels::labels;
 pub use measure::{BLOCKS, Measured, Wanted, measure, measure_all};
 pub use parting::Parting;

@@ -31,15 +31,14 @@ impl Pictures<'_> {
         let notes: String = comparison.notes().map(note).collect();
         let notes = if notes.is_empty() { notes } else { format!("<ul class=\"notes\">\n{notes}</ul>\n") };
         let partings: String = comparison.partings().into_iter().map(parting).collect();
+        let contradictions: String = comparison.contradictions().into_iter().map(parting).collect();
         let answer: String = comparison.verdict.iter().map(answer).collect();
         let heads: String = Row::HEADS.iter().enumerate().map(|(k, head)| th(k, head)).collect();
         let rows: String = comparison.rows.iter().map(|row| tr(&row.cells(used))).collect();
         let curves = Sheet::new(vec![vec![self.series_svg()?]], self.described());
         let (maps, top) = self.panels()?;
-        let maps = Sheet::new(
-            maps.chunks(2).flat_map(|pair| panels(pair, 2)).collect(),
-            "Each trajectory's map beside its contradictions.".to_owned(),
-        );
+        let maps =
+            Sheet::new(panels(&maps, 2), "Each trajectory's map beside its contradictions.".to_owned());
         let (curves, maps, top) = (curves.element(), maps.element(), short(top));
         let body = format!(
             r#"{answer}<p>Trajectories compared by the maps that they make of the scans of <code>{log}</code>, without ground truth:
@@ -65,10 +64,11 @@ first.</figcaption>
 <h2>Where</h2>
 <figure>
 {maps}<figcaption>First the map: white is free, black is occupied, blue-grey is unknown. Beside or below it the evidence that cancels,
-from <span class="ramp conflicts"></span> little to {top} nats per cell and more, with the path of the laser in blue, from its dot.
+from <span class="ramp conflicts"></span> little to {top} nats per cell and more, with the path of the laser, from dark blue at its first pose,
+which has a dot, to light blue at its last; the other dots have the seconds since the first scan.
 Walls that are seen twice are where a trajectory is wrong; doors and people contradict under any.</figcaption>
 </figure>
-</section>
+{contradictions}</section>
 {MEANING}"#
         );
         Ok(output::page("Which trajectory is right?", &body))
@@ -103,7 +103,8 @@ fn tr(cells: &[String; 7]) -> String {
         let text = escaped(&if column == 0 {
             text.replace('\n', "")
         } else {
-            text.replace('\n', ", ").replace(' ', "\u{a0}")
+            // Lines break between numbers, not within them.
+            text.replace(' ', "\u{a0}").replace('\n', ", ")
         });
         if column == 0 {
             return format!("<td>{text}</td>");

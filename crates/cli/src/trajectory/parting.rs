@@ -1,6 +1,7 @@
 //! Where a trajectory parts from the best one: the stretch of the log in which the two move most differently.
 
 use super::common::Common;
+use crate::output::{Number, Record, Value};
 use mean_information::scan::{Pose, blocks};
 use std::f64::consts::{PI, TAU};
 
@@ -48,13 +49,23 @@ impl Parting {
         (all > 0.0).then(|| Self { times, place, by, share: weight(by) / all })
     }
 
+    /// Returns the values of JSON.
+    pub(super) fn record(&self) -> Record {
+        let names = ["from_s", "to_s", "x_m", "y_m", "distance_m", "turn_rad", "share"];
+        let [[from, to], [x, y], [metres, radians]] = [self.times, self.place, self.by];
+        let values = [from, to, x, y, metres, radians, self.share];
+        Record(
+            names.into_iter().zip(values.map(|value| Value::Computed(Some(Number::Double(value))))).collect(),
+        )
+    }
+
     /// Says in words where the trajectory parts from that of the name `best`.
     pub(super) fn in_words(&self, best: &str) -> String {
         let Self { times: [from, to], place: [x, y], by: [metres, radians], share } = self;
         let percent = 100.0 * share;
         if *share < CONCENTRATED {
             return format!(
-                "moves differently from {best} all along the log: no part of 20 has more than {percent:.0} % of it"
+                "moves differently from {best} all along the log: of its 20 parts none has more than {percent:.0} % of that"
             );
         }
         format!(

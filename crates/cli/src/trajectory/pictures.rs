@@ -7,7 +7,7 @@ use crate::failure::Failure;
 use crate::output::Number;
 use crate::plots::{
     Chart, ChartPanel, Colour, ConflictMap, Curve, Drawing, HeatMap, MapPanel, Marks, Picture, Scale, Shape,
-    Sheet, Svg, conflict_scale, panels,
+    Sheet, Svg, TimedPath, conflict_scale, panels,
 };
 use mean_information::scan::Pose;
 
@@ -167,7 +167,9 @@ impl Pictures<'_> {
         let top = self.scale();
         let maps = self.measured.iter().zip(&self.common.poses).filter_map(|(measured, poses)| {
             let (grid, layer) = measured.pictures.as_ref()?;
-            Some(ConflictMap::new(grid, layer, top, poses.iter().map(Pose::position).collect()))
+            let times = self.common.scans.iter().map(|scan| scan.time() - self.common.scans[0].time());
+            let path = TimedPath::new(times.zip(poses.iter().map(Pose::position)).collect());
+            Some(ConflictMap::new(grid, layer, top, path))
         });
         maps.collect()
     }

@@ -1,5 +1,6 @@
 //! The row of a trajectory, and the scans that all rows share.
 
+use super::contradictions::Contradiction;
 use super::parting::Parting;
 use super::setup::Setup;
 use mean_information::scan::Difference;
@@ -41,6 +42,8 @@ pub struct Row {
     pub difference: Option<Difference>,
     /// The part of the log where it parts from the best one, of a row that is not the best.
     pub parting: Option<Parting>,
+    /// The places where its scans contradict one another most, the worst first.
+    pub contradictions: Vec<Contradiction>,
     /// The signs that the row means less than it seems.
     pub warnings: Vec<String>,
 }

@@ -5,6 +5,8 @@ mod common;
 use common::*;
 use mean_information_cli::check::Vectors;
 use std::fs;
+#[cfg(unix)]
+use std::path::Path;
 use std::process::Command;
 
 /// The commands, as `--help` lists them.
@@ -84,6 +86,25 @@ fn every_command_has_a_manual_page() {
     assert!(line.contains("make that first"), "{line}");
 }
 
+/// The lines of the README, in an empty home.
+#[test]
+#[cfg(unix)]
+fn the_readme_installs_them() {
+    let readme = read(concat!(env!("CARGO_MANIFEST_DIR"), "/../../README.md"));
+    let (_, lines) = text(&readme).split_once("```text\nmkdir -p ~/").unwrap();
+    let (lines, _) = lines.split_once("```").unwrap();
+    let home = Folder::new();
+    let path = std::env::var("PATH").unwrap();
+    let program = Path::new(env!("CARGO_BIN_EXE_meaninfo")).parent().unwrap().display();
+    let mut shell = Command::new("sh");
+    shell.env("HOME", home.path("")).env("PATH", format!("{program}:{path}"));
+    let output = shell.args(["-e", "-c", &format!("mkdir -p ~/{lines}")]).output().unwrap();
+    assert_eq!((output.status.code(), text(&output.stderr)), (Some(0), ""));
+    let script = read(home.path(".local/share/bash-completion/completions/meaninfo"));
+    assert_eq!(text(&script), stdout(&["completions", "bash"]));
+    assert!(home.path(".local/share/man/man1/meaninfo-map.1").exists());
+}
+
 #[test]
 fn the_long_version_says_what_is_within() {
     let long = stdout(&["--version"]);
@@ -95,5 +116,8 @@ fn the_long_version_says_what_is_within() {
     assert!(lines[1].starts_with("features: ") && lines[1].contains("page for browsers"), "{long}");
     assert_eq!(lines[2], format!("vectors: v1, {tests} tests of {} operations", vectors.len()));
     assert_eq!(lines[3], "port protocol: 1");
+    // What the README shows of the port in Python.
+    let readme = read(concat!(env!("CARGO_MANIFEST_DIR"), "/../../README.md"));
+    assert!(text(&readme).contains(&format!("```text\n{tests} passed, 0 failed, 0 skipped\n```")));
     assert_eq!(stdout(&["-V"]), format!("meaninfo {version}\n"));
 }

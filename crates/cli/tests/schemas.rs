@@ -4,6 +4,7 @@ mod common;
 
 use common::schema::*;
 use common::*;
+use mean_information_report::protocol::{Argument, Request, Run};
 use mean_information_test_support::formats::Node;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
@@ -39,14 +40,14 @@ fn every_command_has_a_schema() {
         .filter(|&command| command != "help" && stdout(&[command, "--help"]).contains("--format"))
         .map(str::to_owned)
         .collect();
-    let beside = ["check-list", "emmi-filter"].map(str::to_owned);
+    let beside = ["check-list", "emmi-filter", "port"].map(str::to_owned);
     assert_eq!(names(), printing.into_iter().chain(beside).collect());
     let index = fs::read_to_string(format!("{SCHEMAS}/README.md")).unwrap();
     for name in names() {
         assert!(index.contains(&format!("[`{name}.json`]({name}.json)")), "schemas/README.md lacks {name}");
         let title = schema(&name)["title"].as_str().unwrap().to_owned();
         let command = title.split('`').nth(1).unwrap();
-        assert!(command.contains("--format json"), "{title}");
+        assert!(command.contains("--format json") || name == "port", "{title}");
     }
 }
 
@@ -90,7 +91,9 @@ fn objects_are_closed_and_need_their_keys() {
             };
             assert!(missing.is_empty() || missing == may_miss, "{name}: {missing:?}");
             assert!(needed.iter().all(|key| properties.contains_key(key.as_str().unwrap())), "{name}");
-            properties.values().for_each(|property| check(property, name));
+            for property in properties.values() {
+                check(property, name);
+            }
         }
         if schema.get("items").is_some() {
             check(&schema["items"], name);
@@ -129,6 +132,43 @@ fn trajectories() {
     let [log, truth, odometry] =
         [".log", ".true.tum", ".odometry.tum"].map(|ending| format!("{SAMPLE}{ending}"));
     every_key_of("trajectory", &[&["trajectory", &log, &truth, &odometry, "--resolution", "0.4"]]);
+}
+
+/// The lines that a check sends, what this library answers as a port, and a welcome with claims; lines that are none of these.
+#[test]
+fn lines_of_the_protocol() {
+    let hex = |text: &str| Argument::Float(text.to_owned());
+    let run = |seq, op: &str, args: [(&str, Argument); 1]| {
+        let args = args.map(|(name, value)| (name.to_owned(), value)).into();
+        Request::Run(Run { seq, op: op.to_owned(), format: "f64".to_owned(), args })
+    };
+    let cells = ["0x1p-2", "0x1.8p-1", "nan"].map(str::to_owned).to_vec();
+    let requests = [
+        Request::Start { protocol: 1 },
+        run(1, "cell.information", [("p", hex("0x1p-2"))]),
+        run(2, "map.observed", [("cells", Argument::List(cells[..2].to_vec()))]),
+        run(3, "map.observed", [("cells", Argument::List(cells.clone()))]),
+        run(4, "expected.mean_information", [("particles", Argument::Rows(vec![cells]))]),
+        Request::Stop,
+    ];
+    let sent: String = requests.iter().map(|request| request.line() + "\n").collect();
+    let answered = meaninfo().arg("port").write_stdin(format!("no request\n{sent}")).output().unwrap().stdout;
+    let validator = validator("port");
+    let lines: Vec<_> = sent.lines().chain(text(&answered).lines()).collect();
+    assert_eq!(lines.len(), 6 + 6, "{lines:?}");
+    let claims = r#"{"protocol":1,"formats":["f64"],"ops":[],"claims":{"cell.*":3,"map.*":{"bits":2e-16}}}"#;
+    for line in lines.into_iter().chain([claims, r#"{"seq":1,"skipped":"no f32"}"#]) {
+        assert!(validator.is_valid(&serde_json::from_str(line).unwrap()), "{line}");
+    }
+    for line in [
+        r#"{"cmd":"start","protocol":2}"#,
+        r#"{"seq":1}"#,
+        r#"{"seq":1,"result":"0x1p-1","error":"domain"}"#,
+        r#"{"seq":1,"result":0.5}"#,
+        r#"{"cmd":"run","seq":1,"op":"cell.information","format":"f64","args":{"p":0.25}}"#,
+    ] {
+        assert!(!validator.is_valid(&serde_json::from_str(line).unwrap()), "{line}");
+    }
 }
 
 #[test]

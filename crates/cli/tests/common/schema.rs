@@ -58,14 +58,18 @@ pub(crate) fn required(name: &str, pointer: &str) -> Vec<String> {
 pub(crate) fn assert_order(json: &str, depth: usize, name: &str, pointer: &str) {
     let (found, required) = (super::keys(json, depth), required(name, pointer));
     assert!(!found.is_empty() && found.len().is_multiple_of(required.len()), "{name}: {found:?}");
-    found.chunks(required.len()).for_each(|keys| assert_eq!(keys, required, "{name}"));
+    for keys in found.chunks(required.len()) {
+        assert_eq!(keys, required, "{name}");
+    }
 }
 
 /// Checks that every key of a schema is seen in one of these.
 pub(crate) fn assert_every_key(name: &str, seen: &[Value]) {
     let schema = schema(name);
     let mut found = BTreeSet::new();
-    seen.iter().for_each(|json| note_keys(&schema, json, "", &mut found));
+    for json in seen {
+        note_keys(&schema, json, "", &mut found);
+    }
     assert_eq!(found, all_keys(&schema, ""), "{name}");
 }
 

@@ -66,6 +66,13 @@ impl<'a> Line<'a> {
         Fields { rest: self.bytes, line: self.number }
     }
 
+    /// Tells whether the last field may be cut, to one that could be meant or could not: the end of the file ends it, with no
+    /// white space before. A comment may be cut as it likes.
+    pub(crate) fn may_be_cut(self) -> bool {
+        let is_comment = self.bytes.trim_ascii_start().starts_with(b"#");
+        !self.ended && !is_comment && self.bytes.last().is_some_and(|byte| !byte.is_ascii_whitespace())
+    }
+
     /// Creates an error at this line: `line N` and the words.
     pub(crate) fn refuse(self, kind: ErrorKind, words: &str) -> Error {
         Error::new(kind, format!("line {} {words}", self.number)).at(Place::Line(self.number))

@@ -185,7 +185,7 @@ pub enum Warning {
     },
     /// The scans of a saved state are what Cartographer keeps of them.
     CloudsThinned,
-    /// The last line of a text is cut short and left out.
+    /// The last line of a text is cut short and left out, or may be, as nothing ends its last field.
     CutInLine {
         /// The line, from 1.
         line: u64,
@@ -235,6 +235,11 @@ pub enum Warning {
     OtherWeightsStated {
         /// The number of steps.
         steps: u64,
+        /// The gain by which the weights were taken.
+        gain: f64,
+    },
+    /// A filter's log states neither the gain of its weights nor a number that would tell it.
+    GainNotStated {
         /// The gain by which the weights were taken.
         gain: f64,
     },

@@ -154,9 +154,9 @@ impl<T: Real> ParticleMaps<T> {
             Some(cells) => cells,
             none => none.insert((area, Raster::new(area, 0, limit)?)),
         };
+        // Room that is not used is nothing to a map: what is used grows when all is known to go in.
         let whole = used.union(area);
         raster.make_room(*used, whole, 0, limit)?;
-        *used = whole;
         let mut touched = Drafts::new(drafts.len(), area, limit)?;
         let mut changes = Vec::with_capacity(drafts.len());
         for (particle, draft) in drafts.iter().enumerate() {
@@ -164,6 +164,7 @@ impl<T: Real> ParticleMaps<T> {
         }
         let new = touched.numbers(&mut self.patterns)?;
         // From here on nothing is refused.
+        *used = whole;
         for (&(cell, old), new) in touched.cells().iter().zip(new) {
             *raster.cell_mut(cell) = new;
             self.patterns.remove(old);

@@ -98,7 +98,7 @@ impl Filter {
         files.read(log.files.iter().cloned());
         if let (Some(path), Some(picture)) = (&self.plot, picture) {
             let title = format!("{}: {} particles", plots::title(Path::new(&made.log)), made.particles);
-            files.add(path, chart(&rows, title).draw(picture)?);
+            files.add(path, chart(&rows, made.particles, title).draw(picture)?);
         }
         writing.write(&FilterReport { made, rows }, files)?;
         Ok(Status::Done)

@@ -72,6 +72,9 @@ impl FilterReport {
             ("particles", Value::Count(self.made.particles as u64)),
             ("resolution_m", Value::Given(Some(setup.resolution))),
             ("sensor", Value::Text(setup.sensor.to_string())),
+            ("reading_limit_nats", Value::Given(Some(setup.reading_limit))),
+            ("gain", Value::Given(Some(self.made.gain))),
+            ("mount", Value::Text(self.made.mount.clone())),
             ("meaningful", Value::Flag(expected.not_meaningful.is_none())),
             ("warnings", Value::Texts(of_log.iter().cloned().chain(of_row).collect())),
         ])

@@ -1,5 +1,7 @@
 //! `meaninfo emmi --filter`: rows against maps built particle by particle, the keys, the plot, and what is refused.
 
+mod public;
+
 use crate::common::schema::assert_order;
 use crate::common::*;
 use mean_information::Error;
@@ -9,10 +11,8 @@ use mean_information::sensor::SteppedSensor;
 use mean_information_files::particles::FilterLog;
 use mean_information_files::read_filter_log;
 use mean_information_files::scans::{NoReturn, ScanOptions};
-use mean_information_test_support::logs::shared;
 use serde_json::Value;
 use std::fmt::Write;
-use std::path::Path;
 
 /// Three particles in a round room over six scans, drawn anew after the second and the fourth.
 fn log() -> String {
@@ -88,6 +88,13 @@ fn rows_are_those_of_maps_that_share_nothing() {
     );
     assert_eq!(rows[0]["sensor"], "stepped: free 0.4, occupied 0.7, walls 0.3 m thick");
 
+    assert_eq!((rows[0]["gain"].as_f64(), rows[0]["reading_limit_nats"].as_f64()), (Some(2.0), Some(3.5)));
+    assert!(rows[0]["mount"].as_str().unwrap().starts_with("poses are taken for those of the laser"));
+
+    // Every second, and the last: a resampling after a step without a row stands in the row after it.
+    let some = self::rows(&[name, "--resolution", "0.3", "--every", "2"]);
+    assert_eq!(some.iter().map(|row| row["step"].as_u64().unwrap()).collect::<Vec<_>>(), [0, 2, 4, 5]);
+    assert_eq!(some.iter().map(left).collect::<Vec<_>>(), [none, (true, Some(2)), (true, Some(1)), none]);
     // Every third, and the last: the same rows, with what was drawn anew in between.
     let some = self::rows(&[name, "--resolution", "0.3", "--every", "3"]);
     assert_eq!(some.iter().map(|row| row["step"].as_u64().unwrap()).collect::<Vec<_>>(), [0, 3, 5]);
@@ -184,23 +191,4 @@ fn what_is_wrong_is_said_in_a_line() {
     let line = refusal(&["emmi", "--particles", "a.npy", "--weights", "b.npy", "--free", "0.3"]);
     assert!(line.contains("need --filter"), "{line}");
     assert!(refusal(&["emmi"]).contains("--particles"));
-}
-
-/// GMapping's log of the third floor of MIT CSAIL: the first row, one in the middle and the last.
-#[test]
-fn rows_of_a_public_log() {
-    let Some(path) = shared("slam/csail.gfs") else { return };
-    if cfg!(debug_assertions) {
-        return println!("skipped: takes minutes without optimisation; run with --release");
-    }
-    public(&path);
-}
-
-fn public(path: &Path) {
-    let read = read_filter_log(path, &ScanOptions::default()).unwrap();
-    let rows = rows(&[path.to_str().unwrap()]);
-    assert_eq!(rows.len(), 406);
-    for step in [0, 203, 405] {
-        check(&read, &rows[step], 0.05);
-    }
 }

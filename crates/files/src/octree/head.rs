@@ -7,6 +7,8 @@ use std::io::BufRead;
 /// The first lines of the two kinds of files.
 const FULL: &str = "# Octomap OcTree file";
 const BINARY: &str = "# Octomap OcTree binary file";
+/// The first bytes of a `.bt` file without a head of text, before OctoMap 1.0: the kind of tree.
+const OLD_BINARY: [u8; 4] = [3, 0, 0, 0];
 
 /// What a head says.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,6 +31,9 @@ impl Head {
     /// # Errors
     /// An [`Error`] with the line if it is not OctoMap's, of another kind of tree, lacks a key, or ends before `data`.
     pub(super) fn read(input: &mut impl BufRead) -> Result<Self, Error> {
+        if input.fill_buf()?.first() == Some(&OLD_BINARY[0]) {
+            return Self::read_old(input);
+        }
         let mut lines = Lines::new(input);
         let Some(first) = lines.next()? else {
             let refused = Error::new(ErrorKind::CutShort, "the file is empty");
@@ -63,6 +68,29 @@ impl Head {
         Err(Error::new(ErrorKind::CutShort, "the file ends before the line `data`").at(Place::Byte(bytes)))
     }
 
+    /// Reads the head of a `.bt` file from before OctoMap had heads of text: the kind of tree, the side, the number of nodes.
+    fn read_old(input: &mut impl BufRead) -> Result<Self, Error> {
+        let mut head = [0; 16];
+        input.read_exact(&mut head).map_err(|error| match error.kind() {
+            std::io::ErrorKind::UnexpectedEof => {
+                Error::new(ErrorKind::CutShort, "the file ends within its head of 16 bytes")
+                    .at(Place::Byte(0))
+            }
+            _ => error.into(),
+        })?;
+        let (kind, rest) = head.split_at(4);
+        let (side, nodes) = rest.split_at(8);
+        if kind != OLD_BINARY {
+            return Err(no_octree().at(Place::Byte(0)));
+        }
+        let number = |bytes: &[u8]| bytes.iter().rev().fold(0, |number, &byte| number << 8 | u64::from(byte));
+        let resolution = f64::from_bits(number(side));
+        if !is_side(resolution) {
+            return Err(Error::out_of_range("resolution", resolution, SIDES).at(Place::Byte(4)));
+        }
+        Ok(Self { binary: true, coloured: false, nodes: Some(number(nodes)), resolution, bytes: 16 })
+    }
+
     /// Returns what stands for a head where nodes come without one, from byte `bytes`: in messages of ROS.
     ///
     /// # Errors
@@ -82,9 +110,13 @@ fn is_binary(first: Line<'_>) -> Result<bool, Error> {
     if begins(FULL) || begins(BINARY) {
         return Ok(begins(BINARY));
     }
-    let refused =
-        Error::new(ErrorKind::Format, "is no octree of OctoMap by its first line").at(Place::Line(1));
-    Err(refused.allowing("; allowed are ", format!("`{FULL}` and `{BINARY}`")))
+    Err(no_octree().at(Place::Line(1)))
+}
+
+/// Creates the error of a file that begins as no octree does.
+fn no_octree() -> Error {
+    let refused = Error::new(ErrorKind::Format, "is no octree of OctoMap by its first line");
+    refused.allowing("; allowed are ", format!("`{FULL}` and `{BINARY}`"))
 }
 
 /// Tells whether the nodes of the kind of tree on this line have colours.
@@ -95,7 +127,8 @@ fn is_coloured(line: Line<'_>, mut fields: Fields<'_>) -> Result<bool, Error> {
 /// Tells whether the nodes of a kind of tree have colours.
 fn coloured(id: &[u8]) -> Result<bool, Error> {
     match id {
-        b"OcTree" => Ok(false),
+        // So OctoMap reads the id of its first heads, too.
+        b"OcTree" | b"1" => Ok(false),
         b"ColorOcTree" => Ok(true),
         other => {
             let id = String::from_utf8_lossy(other).chars().take(40).collect::<String>();

@@ -8,6 +8,9 @@
 //! | `.ot` | log-odds (nats) as `f32`; of a `ColorOcTree` three bytes of colour; a byte whose bit `i` promises child `i` |
 //! | `.bt` | two bytes; two bits for each child from the lowest: 0 none, 1 a free leaf, 2 an occupied leaf, 3 an inner node |
 //!
+//! A `.bt` without a head of text, as they were before OctoMap had one, has 16 bytes in its place: 3, the side of a cell (`f64`)
+//! and the number of nodes. `id 1` is `OcTree`.
+//!
 //! All numbers are little-endian. Only leaves mean something: OctoMap computes inner nodes from them.
 
 mod head;

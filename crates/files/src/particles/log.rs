@@ -6,12 +6,13 @@ use crate::error::{Error, ErrorKind, Place};
 use crate::scans::ScanOptions;
 use crate::trajectory::compose;
 use crate::warning::Warning;
+use mean_information::elementary::exp;
 use mean_information::scan::Pose;
 use std::io::BufRead;
 use std::path::PathBuf;
 
-/// How far the number of particles that count may be from the stated one, relative to it: it is written with six decimals.
-const STATED_WITHIN: f64 = 1e-4;
+/// The unit of the last of the six decimals that GMapping writes.
+const UNIT: f64 = 1e-6;
 
 /// The steps of a particle filter.
 ///
@@ -41,6 +42,14 @@ pub struct FilterLog {
     pub files: Vec<PathBuf>,
 }
 
+/// Bounds how far decimals move the number of particles that count, `(sum w)^2 / sum w^2`, from the stated one.
+fn stated_within(step: &FilterStep, gain: f64) -> f64 {
+    // A logarithm is off by half a unit, its distance from the greatest by one: a weight by the factor e^±x, and the quotient of
+    // squares of weights by e^±4x. The stated number is off by half a unit itself; floats add less than another tenth.
+    let x = UNIT / (gain * step.log_weights.len() as f64);
+    0.6 * UNIT + step.effective(gain) * (exp(4.0 * x) - 1.0)
+}
+
 impl FilterLog {
     /// The gain of the weights unless a log states it, as in GMapping's programs.
     pub const GAIN: f64 = 3.0;
@@ -54,7 +63,8 @@ impl FilterLog {
     pub fn read(input: impl BufRead, options: &ScanOptions) -> Result<Self, Error> {
         let mut reader = Reader::new(options);
         let mut warnings = reader.read(input)?;
-        let (steps, gain) = (reader.steps, reader.gain.unwrap_or(Self::GAIN));
+        let (steps, stated_gain) = (reader.steps, reader.gain);
+        let gain = stated_gain.unwrap_or(Self::GAIN);
         if steps.is_empty() {
             let refused = Error::new(ErrorKind::Format, "holds no scan with its particles");
             return Err(refused.allowing("; allowed are ", "logs of LASER_READING and SM_UPDATE"));
@@ -65,9 +75,12 @@ impl FilterLog {
             warnings.push(Warning::WeightsUnderflow { weights });
         }
         let differs = |step: &FilterStep| {
-            step.stated_effective
-                .is_some_and(|stated| (step.effective(gain) - stated).abs() > STATED_WITHIN * stated)
+            let (effective, within) = (step.effective(gain), stated_within(step, gain));
+            step.stated_effective.is_some_and(|stated| (effective - stated).abs() > within)
         };
+        if stated_gain.is_none() && steps.iter().all(|step| step.stated_effective.is_none()) {
+            warnings.push(Warning::GainNotStated { gain });
+        }
         let differing = steps.iter().filter(|step| differs(step)).count() as u64;
         if differing > 0 {
             warnings.push(Warning::OtherWeightsStated { steps: differing, gain });

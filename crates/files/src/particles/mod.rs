@@ -8,9 +8,10 @@
 //! | `RESAMPLE n i…` | from now on particle `k` continues particle `iₖ`, with its trajectory and its map |
 //! | `PARAM ogain g`, `PARAM maxrange m` | the gain of the weights, the greatest range in metres |
 //! | `ODO_UPDATE n (x y θ w)… t` | its number of particles must be that of the others; poses between scans are passed over |
-//! | `ODOM`, `FRAME`, other `PARAM`, `#` and an empty line | nothing: passed over |
+//! | `ODOM`, `FRAME`, `SIMULATOR_POS`, `ENTROPY`, `COMMENT`, other `PARAM`, `#` and an empty line | nothing: passed over |
 //!
-//! Lines of any other first word are passed over and counted. The first scan of a run is not in the log: GMapping writes a
+//! The number of particles never changes: GMapping's programs ask for no other, though its library could. A last line without
+//! an end is left out where its last number may be cut. Lines of any other first word are passed over and counted. The first scan of a run is not in the log: GMapping writes a
 //! scan only after it was matched against a map.
 //!
 //! The logarithms add up from one resampling to the next. What GMapping weighs particles by is

@@ -43,6 +43,10 @@ impl<'a> Reader<'a> {
         let mut lines = Lines::new(input);
         let mut warnings = Vec::new();
         while let Some(line) = lines.next()? {
+            if line.may_be_cut() {
+                warnings.push(Warning::CutInLine { line: line.number });
+                continue;
+            }
             match self.line(line) {
                 Ok(()) => {}
                 Err(error) if !line.ended && error.kind() == ErrorKind::Format => {
@@ -73,7 +77,7 @@ impl<'a> Reader<'a> {
             Some(b"RESAMPLE") => self.resample(line, fields),
             Some(b"ODO_UPDATE") => self.count(&mut fields).map(|_| ()),
             Some(b"PARAM") => self.parameter(fields),
-            Some(b"ODOM" | b"FRAME") | None => Ok(()),
+            Some(b"ODOM" | b"FRAME" | b"SIMULATOR_POS" | b"ENTROPY" | b"COMMENT") | None => Ok(()),
             Some(word) => {
                 if !word.starts_with(b"#") {
                     self.words.add(word);

@@ -24,7 +24,8 @@ impl FilterStep {
     /// for the exponent, which is within 2 ulp. A weight below the least float is 0.
     pub fn weights(&self, gain: f64) -> Vec<f64> {
         let greatest = self.log_weights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let divisor = gain * self.log_weights.len() as f64;
+        // Not infinite, as a difference may be.
+        let divisor = (gain * self.log_weights.len() as f64).min(f64::MAX);
         self.log_weights.iter().map(|w| exp((w - greatest) / divisor)).collect()
     }
 

@@ -16,7 +16,7 @@ const FIELDS: [&str; 8] = ["time", "x", "y", "z", "qx", "qy", "qz", "qw"];
 /// quaternions whose length is within 0.02 of 1 are normalised.
 ///
 /// Pitch, roll and z are dropped: poses tilted by more than a degree are counted in [`Warning::TiltDropped`]. A last line
-/// without an end that has no eight fields is dropped with [`Warning::CutInLine`].
+/// without an end that has no eight fields, or others than can be meant, is dropped with [`Warning::CutInLine`].
 ///
 /// ```
 /// use mean_information_files::tum;
@@ -45,15 +45,18 @@ pub fn read(input: impl BufRead) -> Result<(Trajectory, Vec<Warning>), Error> {
         if fields.word().is_none_or(|word| word.starts_with(b"#")) {
             continue;
         }
-        let (time, pose, turn) = match stamped(line) {
+        let in_order = |read: (f64, Pose, Quaternion)| {
+            check_time(read.0, times.last().copied()).map_err(|error| line.blame(error))?;
+            Ok(read)
+        };
+        let (time, pose, turn) = match stamped(line).and_then(in_order) {
             Ok(read) => read,
-            Err(error) if !line.ended && error.kind() == ErrorKind::Format => {
+            Err(error) if line.may_be_cut() || !line.ended && error.kind() == ErrorKind::Format => {
                 warnings.push(Warning::CutInLine { line: line.number });
                 break;
             }
             Err(error) => return Err(error),
         };
-        check_time(time, times.last().copied()).map_err(|error| line.blame(error))?;
         tilts.see(turn);
         times.push(time);
         poses.push(pose);

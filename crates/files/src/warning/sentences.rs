@@ -161,7 +161,9 @@ impl fmt::Display for Warning {
                 "the scans are the points that Cartographer keeps, thinned out and without beams that did not return; beams \
                  are taken from the origin of the tracking frame, as Cartographer inserts them"
             ),
-            Self::CutInLine { line } => write!(f, "line {line}, the last, is cut short and left out"),
+            Self::CutInLine { line } => {
+                write!(f, "line {line}, the last, is cut short, or may be, as it has no end: it is left out")
+            }
             Self::TiltDropped { count, greatest_degrees } => write!(
                 f,
                 "{count} poses are pitched or rolled by more than 1 degree, up to {greatest_degrees:.1}: dropped, as \
@@ -195,6 +197,11 @@ impl fmt::Display for Warning {
                 f,
                 "in {steps} steps another number of particles counts than the log states: its weights were not taken \
                  by a gain of {gain}"
+            ),
+            Self::GainNotStated { gain } => write!(
+                f,
+                "the log states no gain of its weights (PARAM ogain), and no numbers of particles that count (NEFF): they are \
+                 taken by a gain of {gain}"
             ),
             Self::LeavesOfLogOdds0 { leaves, cells } => {
                 let of = if leaves == 1 { "1 leaf has".to_owned() } else { format!("{leaves} leaves have") };

@@ -121,6 +121,88 @@ fn what_cannot_be_meant_is_refused_with_its_line() {
     assert!(refused.to_string().starts_with("holds no scan with its particles"), "{refused}");
 }
 
+/// Cut at any byte of its last lines a log is read, and what is read of it is what was written.
+#[test]
+fn a_cut_log_is_read_to_its_last_whole_line() {
+    let last = scan(4.5) + "SM_UPDATE 3 0 3 0 -3 1 3 0 -13 2 3 0 -23 \nNEFF 1.372145\nRESAMPLE 3 0 0 12 \n";
+    // Twelve particles could be meant of fewer.
+    let last = last.replace(" 12 ", " 2 ");
+    let whole = read(&(small() + &last));
+    for cut in 0..last.len() {
+        let log = read(&(small() + &last[..cut]));
+        let (known, new) = (&whole.steps[..log.steps.len()], &log.steps);
+        assert!(new.len() >= 3, "{cut}");
+        for (known, new) in known.iter().zip(new) {
+            assert_eq!(
+                (&known.scan, &known.poses, &known.log_weights),
+                (&new.scan, &new.poses, &new.log_weights),
+                "{cut}"
+            );
+            assert!(
+                new.stated_effective.is_none() || new.stated_effective == known.stated_effective,
+                "{cut}"
+            );
+            assert!(new.resampled.is_none() || new.resampled == known.resampled, "{cut}");
+        }
+        let is_whole = last[..cut].ends_with('\n') || cut == 0;
+        let said = log.warnings.iter().any(|warning| matches!(warning, Warning::CutInLine { .. }));
+        // But for the space that ends a line.
+        assert!(said != is_whole || last[cut..].starts_with('\n'), "{cut}: {:?}", log.warnings);
+    }
+    // A number that is cut to one that cannot be meant: of 30 particles 3, an earlier time.
+    for cut in ["ODO_UPDATE 1", "LASER_READING 18", "RESAMPLE 3 2 0 4"] {
+        assert_eq!(read(&(small() + cut)).warnings, [Warning::CutInLine { line: 14 }], "{cut}");
+    }
+}
+
+#[test]
+fn lines_that_gmapping_reads_are_known() {
+    let more = "SIMULATOR_POS 1 2 0.5 3\nENTROPY 1 2 3 4\nCOMMENT a b\n#COMMENT c\n";
+    assert_eq!(read(&(more.to_owned() + &small())).warnings, []);
+}
+
+#[test]
+fn a_gain_that_is_not_stated_is_said_unless_the_log_confirms_it() {
+    let bare = small().replace("PARAM ogain 2\n", "");
+    assert_eq!(read(&bare).warnings, []); // three equal weights count as 3 by any gain
+    let open = read(&bare.replace("NEFF", "#"));
+    assert_eq!(open.warnings, [Warning::GainNotStated { gain: 3.0 }]);
+    assert!(open.warnings[0].to_string().contains("by a gain of 3"), "{}", open.warnings[0]);
+}
+
+/// GMapping writes six decimals: of the logarithms, and of how many count.
+#[test]
+fn the_particles_that_count_are_the_stated_ones_within_their_decimals() {
+    let stated = |neff: &str| read(&small().replace("-12 \n", &format!("-12 \nNEFF {neff}\n"))).warnings;
+    // 1, exp(-1/2), exp(-1): 2.600213...
+    let log = read(&small());
+    let effective = log.steps[0].effective(2.0);
+    assert_eq!(stated(&format!("{effective:.6}")), []);
+    assert_eq!(stated(&format!("{:.6}", effective + 1e-6)), []); // what the logarithms' decimals move: 4 / (2 * 3) units times 2.6
+    assert_eq!(
+        stated(&format!("{:.6}", effective + 4e-6)),
+        [Warning::OtherWeightsStated { steps: 1, gain: 2.0 }]
+    );
+}
+
+#[test]
+fn weights_are_numbers_whatever_the_gain() {
+    for gain in ["1e308", "1.7e308", "5e-324", "1e-308"] {
+        let far = small()
+            .replace("ogain 2", &format!("ogain {gain}"))
+            .replace("-6 1", "-1.7e308 1")
+            .replace("-9 2", "1.7e308 2");
+        let log = read(&far.replace("NEFF", "#"));
+        for step in 0..3 {
+            let weights = log.weights(step);
+            assert!(
+                weights.iter().all(|w| (0.0..=1.0).contains(w)) && weights.contains(&1.0),
+                "{gain}: {weights:?}"
+            );
+        }
+    }
+}
+
 /// GMapping's own log: what docs/expected.md says of it.
 #[test]
 fn gmapping_s_own_log_is_read_as_it_weighs() {

@@ -50,6 +50,35 @@ fn what_is_written_is_read() {
     assert_eq!((tree.files, tree.warnings), (vec![path], vec![]));
 }
 
+/// `.bt` files from before there were heads of text, and the first id of a head.
+#[test]
+fn old_heads_are_read() {
+    let small = Node::small();
+    let bytes = small.binary();
+    let after = |bytes: &[u8]| bytes.windows(5).position(|five| five == b"data\n").unwrap() + 5;
+    let nodes = &bytes[after(&bytes)..];
+    let old = |kind: u32, side: f64, count: u32| {
+        [&kind.to_le_bytes()[..], &side.to_le_bytes(), &count.to_le_bytes(), nodes].concat()
+    };
+    let tree = octree::read(&bytes[..], &mut Seen::default()).unwrap();
+    let count = u32::try_from(tree.nodes).unwrap();
+    assert_eq!(octree::read(&old(3, 0.05, count)[..], &mut Seen::default()).unwrap(), tree);
+    assert_eq!(root(&old(3, 0.05, count)).unwrap(), root(&bytes).unwrap());
+    let full = small.full(false);
+    let text = String::from_utf8_lossy(&full[..after(&full)]).replace("id OcTree", "id 1");
+    assert_eq!(root(&[text.as_bytes(), &full[after(&full)..]].concat()).unwrap(), small);
+    for (bytes, kind, byte, words) in [
+        (old(3, 0.05, count)[..15].to_vec(), ErrorKind::CutShort, 0, "ends within its head of 16 bytes"),
+        (old(259, 0.05, count), ErrorKind::Format, 0, "is no octree of OctoMap"),
+        (old(3, -0.05, count), ErrorKind::OutOfRange, 4, "resolution is -0.05"),
+        (old(3, 0.05, count + 1), ErrorKind::Format, 16 + nodes.len() as u64, "that its head says"),
+    ] {
+        let refused = root(&bytes).unwrap_err();
+        assert!(refused.to_string().contains(words), "{refused}: {words}");
+        assert_eq!((refused.kind(), refused.place()), (kind, Some(&Place::Byte(byte))), "{refused}");
+    }
+}
+
 #[test]
 fn a_leaf_counts_for_its_finest_cells() {
     let mut measured = Measured::default();

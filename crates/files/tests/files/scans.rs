@@ -190,6 +190,13 @@ fn a_log_cut_in_mid_line_is_read_to_its_last_whole_line() {
     }
     let log = read(&format!("{first}{}", second.trim_end())).unwrap();
     assert_eq!((log.scans.len(), log.warnings), (2, vec![]));
+    // A last number that is cut to one that cannot be meant: a time before that of the scan before.
+    let at = |time: &str| front_laser(180, 2.5).replace("host 0.125", &format!("host {time}"));
+    let (first, second) = (at("25.5"), at("35.5"));
+    let options = ScanOptions { time: TimeField::Logged, ..ScanOptions::default() };
+    let cut = format!("{first}{}", second.trim_end().trim_end_matches("5.5"));
+    let log = ScanLog::read_carmen(cut.as_bytes(), &options).unwrap();
+    assert_eq!((log.scans.len(), &log.warnings), (1, &vec![Warning::CutInLine { line: 2 }]), "{cut}");
 }
 
 #[test]

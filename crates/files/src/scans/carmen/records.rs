@@ -43,7 +43,7 @@ pub enum Record {
 /// assert_eq!((*time, scan.time(), scan.bearings().at(0)), (2.5, 2.75, -std::f64::consts::FRAC_PI_4));
 /// let words: Vec<_> = records.warnings().iter().map(ToString::to_string).collect();
 /// assert_eq!(words[0], "1 line is not understood and passed over, by the first word: HELLO (1)");
-/// assert_eq!(words[1], "line 6, the last, is cut short and left out");
+/// assert_eq!(words[1], "line 6, the last, is cut short, or may be, as it has no end: it is left out");
 /// # Ok::<(), mean_information_files::Error>(())
 /// ```
 ///
@@ -109,7 +109,7 @@ impl<R: BufRead> Records<R> {
         while let Some(line) = self.lines.next()? {
             let kind = match read(line, &mut self.parameters, &self.options) {
                 Ok(Kind::NotUnderstood) if !line.ended => None,
-                Err(error) if !line.ended && error.kind() == ErrorKind::Format => None,
+                Err(error) if line.may_be_cut() || !line.ended && error.kind() == ErrorKind::Format => None,
                 read => Some(read?),
             };
             let (scan, mounted) = match kind {
@@ -130,7 +130,13 @@ impl<R: BufRead> Records<R> {
                 self.same_time += 1;
                 continue;
             }
-            check_time(scan.time(), self.last).map_err(|error| line.blame(error))?;
+            if let Err(error) = check_time(scan.time(), self.last) {
+                if line.may_be_cut() {
+                    self.cut = Some(line.number);
+                    return Ok(None);
+                }
+                return Err(line.blame(error));
+            }
             self.last = Some(scan.time());
             if mounted && let (Some(robot), Some(laser)) = (scan.odometry(), scan.laser()) {
                 self.mount.see(robot, laser).map_err(|error| line.blame(error.into()))?;

@@ -177,7 +177,7 @@ class Parser {
     if (has(ALPHABETS)) return { kind: ORD, mathml: ALPHABETS[name](this.tokens[this.at] === "{" ? this.text() : this.next()) };
     if (has(MARKS)) {
       const mark = operator(MARKS[name], name === "bar");
-      return { kind: ORD, mathml: tagged("mover", this.argument(style) + mark, 'accent="true"') };
+      return { kind: ORD, mathml: tagged("mover", this.argument(style) + mark, `class="${name}" accent="true"`) };
     }
     switch (name) {
       case "frac":

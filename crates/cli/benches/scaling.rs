@@ -8,7 +8,7 @@
 
 use mean_information::Tally;
 use mean_information::map::encoding::{Encoding, MrptLogOdds, Probability};
-use mean_information_cli::plots::{Chart, ChartPanel, Colour, Curve, Drawing, Marks, Picture, Scale};
+use mean_information_cli::plots::{Chart, ChartPanel, Colour, Curve, Drawing, Marks, Picture, Scale, Shape};
 use mean_information_test_support::timing;
 use std::hint::black_box;
 use std::num::NonZero;
@@ -93,7 +93,7 @@ fn panel(
     let curve = |times: &Times| Curve {
         name: times.name.to_owned(),
         colour: times.colour,
-        marks: Marks::Each,
+        marks: Marks::Each(Shape::Circle),
         points: times.points.iter().map(|&(x, y)| (x, of(&times.points, y))).collect(),
     };
     ChartPanel { vertical, scale, curves: times.iter().map(curve).collect(), marks: Vec::new() }

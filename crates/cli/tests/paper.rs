@@ -90,11 +90,7 @@ fn the_report_is_reproduced() {
     let body = page.strip_prefix("<!DOCTYPE html>\n").unwrap();
     let document = roxmltree::Document::parse(body).unwrap();
     let nodes = |tag: &'static str| document.descendants().filter(move |node| node.tag_name().name() == tag);
-    for node in document.descendants() {
-        for attribute in node.attributes().filter(|a| ["href", "src"].contains(&a.name())) {
-            assert!(attribute.value().starts_with("data:") || attribute.value().starts_with('#'));
-        }
-    }
+    links_and_formulas(&document);
     assert_eq!((nodes("script").count(), nodes("link").count(), page.matches("url(").count()), (0, 0, 0));
     assert!(page.contains("prefers-color-scheme: dark") && page.contains("width=device-width"));
     let described =
@@ -134,6 +130,29 @@ fn the_report_is_reproduced() {
             .map(|claim| ["place", "claim", "verdict"].map(|key| text(claim, key)))
             .collect::<Vec<_>>()
     );
+}
+
+/// Nothing that a browser would load, links that lead to chapters, and under every figure a formula with the chapter that
+/// derives it.
+fn links_and_formulas(document: &roxmltree::Document) {
+    for node in document.descendants() {
+        for attribute in node.attributes().filter(|a| ["href", "src"].contains(&a.name())) {
+            let (_, chapter) = attribute.value().split_once("/mean_information/book/").unwrap_or_default();
+            let chapter = chapter.strip_suffix("/index.html").unwrap_or("README");
+            let leads = attribute.value().starts_with("https://docs.rs/mean-information/")
+                && fs::exists(format!("../../docs/{chapter}.md")).unwrap();
+            assert!(leads || ["data:", "#"].iter().any(|local| attribute.value().starts_with(local)));
+        }
+    }
+    let sections = document.descendants().filter(|node| node.has_tag_name("section"));
+    let figures: Vec<_> = sections.filter(|node| node.attribute("id") != Some("claims")).collect();
+    assert_eq!(figures.len(), FIGURES.len());
+    for tag in ["math", "a"] {
+        assert!(
+            figures.iter().all(|figure| figure.descendants().any(|node| node.has_tag_name(tag))),
+            "{tag}"
+        );
+    }
 }
 
 /// Before anything is computed.

@@ -2,7 +2,7 @@
 
 use super::steps::Row;
 use crate::output::Number;
-use crate::plots::{Chart, ChartPanel, Colour, Curve, Marks, Scale};
+use crate::plots::{Chart, ChartPanel, Colour, Curve, Marks, Scale, Shape};
 
 /// Creates the chart of rows of a filter of `of` particles: EMMI with the particles' own mean, the entropy of the expected map, and the particles that count
 /// with those that a resampling leaves. Where it leaves few, a line goes through all panels.
@@ -16,16 +16,18 @@ pub fn chart(rows: &[Row], of: usize, title: String) -> Chart<3> {
     };
     let panel =
         |vertical, curves| ChartPanel { vertical, scale: Scale::Linear, curves, marks: marks(rows, of) };
-    let line = |name, colour, of| curve(name, colour, Marks::None, of);
+    let line = |name, colour, shape, of| curve(name, colour, Marks::Spaced(shape), of);
     let means = vec![
-        line("EMMI", Colour::Blue, &|row| row.expected.mean_information.map(Number::widen)),
-        line("mean of the particles' own", Colour::Grey, &|row| row.mean_of_particles.map(Number::widen)),
+        line("EMMI", Colour::Blue, Shape::Circle, &|row| row.expected.mean_information.map(Number::widen)),
+        line("mean of the particles' own", Colour::Grey, Shape::Square, &|row| {
+            row.mean_of_particles.map(Number::widen)
+        }),
     ];
-    let entropy = vec![line("entropy of the expected map", Colour::Orange, &|row| {
+    let entropy = vec![line("entropy of the expected map", Colour::Orange, Shape::Triangle, &|row| {
         Some(row.expected.entropy.widen() / 1e3)
     })];
     let particles = vec![
-        line("effective particles", Colour::Green, &|row| Some(row.effective)),
+        line("effective particles", Colour::Green, Shape::Diamond, &|row| Some(row.effective)),
         curve("particles left by a resampling", Colour::Purple, Marks::Alone, &|row| {
             row.left.map(|left| left as f64)
         }),

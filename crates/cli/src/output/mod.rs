@@ -1,6 +1,7 @@
 //! What every command does with its result: a table, JSON or CSV; to standard output or to files.
 
 mod files;
+pub(crate) mod formulas;
 mod page;
 mod standard_output;
 mod table;
@@ -10,7 +11,7 @@ mod xml;
 pub use files::Files;
 pub(crate) use mean_information_report::number::{decimal_exponent, short};
 pub use mean_information_report::{Number, Record, Value, record};
-pub(crate) use page::page;
+pub(crate) use page::{book, page};
 pub use table::{folded, table, text_table, with_notes, wrapped};
 pub use writing::{Writing, write_text};
 pub(crate) use xml::escaped;

@@ -4,6 +4,16 @@ use super::escaped;
 
 const STYLE: &str = include_str!("page.css");
 
+/// Returns a link to a chapter of the book, or to its contents, as docs.rs has it for this version.
+pub(crate) fn book(chapter: &str, text: &str) -> String {
+    let version = env!("CARGO_PKG_VERSION");
+    let text = escaped(text);
+    let chapter = if chapter.is_empty() { String::new() } else { format!("{chapter}/") };
+    format!(
+        "<a href=\"https://docs.rs/mean-information/{version}/mean_information/book/{chapter}index.html\">{text}</a>"
+    )
+}
+
 /// Returns the page of this title, a text, and this body, which is HTML.
 pub(crate) fn page(title: &str, body: &str) -> String {
     let title = escaped(title);

@@ -1,7 +1,8 @@
 //! Fig. 4: two grids of the circular room.
 
-use super::{Claim, Figure, Section};
+use super::{Claim, Figure, Section, Theory};
 use crate::failure::Failure;
+use crate::output::formulas;
 use crate::plots::{MapPanel, Sheet, panels};
 use mean_information::map::Grid;
 use mean_information::room::CartesianRoom;
@@ -37,6 +38,11 @@ pub(super) fn section() -> Result<Section, Failure> {
             a.observed(),
             b.observed()
         ),
+        theory: &[Theory {
+            words: "The occupancy of each cell is that of Eq. 5 at its centre, and the mean over the observed cells is Eq. 4",
+            formula: formulas::MEAN_INFORMATION,
+            chapter: ["grids", "The two grids of the circular room"],
+        }],
         picture: Sheet::new(
             rows,
             format!(

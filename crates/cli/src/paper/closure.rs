@@ -3,9 +3,10 @@
 //! A particle filter goes round the corridors, sees again where it began, and goes on. At each step: EMMI, the weighted
 //! mean of the particles' own mean information, and the entropy of the expected map.
 
-use super::{Claim, Figure, Section};
+use super::{Claim, Figure, Section, Theory};
 use crate::failure::Failure;
-use crate::plots::{Chart, ChartPanel, Colour, Curve, MapPanel, Marks, Scale, Sheet, Svg, panels};
+use crate::output::formulas;
+use crate::plots::{Chart, ChartPanel, Colour, Curve, MapPanel, Marks, Scale, Shape, Sheet, Svg, panels};
 use crate::simulation::{Filter, Journey, Random, RoomName, Scanner, Settings, trajectory::Motion};
 use mean_information::Error;
 use mean_information::elementary::sqrt;
@@ -144,10 +145,10 @@ fn run_all(seeds: &[u64]) -> Result<Vec<Series>, Error> {
 
 impl Series {
     fn chart(&self) -> Chart<2> {
-        let curve = |name: &str, colour, of: fn(&Step) -> f64| Curve {
+        let curve = |name: &str, (colour, shape), of: fn(&Step) -> f64| Curve {
             name: name.to_owned(),
             colour,
-            marks: Marks::Each,
+            marks: Marks::Each(shape),
             points: (0_u32..).map(f64::from).zip(self.steps.iter().map(of)).collect(),
         };
         let panel = |vertical, curves| ChartPanel {
@@ -157,10 +158,14 @@ impl Series {
             marks: vec![(self.closure as f64, "sees again where it began")],
         };
         let means = vec![
-            curve("EMMI", Colour::Blue, |step| step.emmi),
-            curve("mean of the particles' own mean information", Colour::Grey, |step| step.mean_of_particles),
+            curve("EMMI", (Colour::Blue, Shape::Circle), |step| step.emmi),
+            curve("mean of the particles' own mean information", (Colour::Grey, Shape::Square), |step| {
+                step.mean_of_particles
+            }),
         ];
-        let entropy = vec![curve("entropy of the expected map", Colour::Orange, |step| step.entropy)];
+        let entropy = vec![curve("entropy of the expected map", (Colour::Orange, Shape::Triangle), |step| {
+            step.entropy
+        })];
         Chart {
             title: "A particle filter goes round the corridors".to_owned(),
             horizontal: "step",
@@ -195,6 +200,12 @@ impl Series {
                 before.entropy - after.entropy,
                 after.margin()
             ),
+            theory: &[Theory {
+                words: "The expected map EM averages the maps of the particles by their weights. Where they disagree it is less \
+                        sure than each of them, and EMMI says by how much",
+                formula: formulas::EMMI,
+                chapter: ["expected", "The expected map"],
+            }],
             picture: Sheet::new(
                 rows,
                 format!(

@@ -1,8 +1,9 @@
 //! Fig. 5: grids of the circular room against the limit, Eq. 7, and against the one that Cartesian grids have.
 
-use super::{Claim, Figure, Section};
+use super::{Claim, Figure, Section, Theory};
 use crate::convergence::{Convergence, GridKind, Series};
 use crate::failure::Failure;
+use crate::output::formulas;
 use crate::plots::{ConvergencePlot, Sheet, Svg};
 use mean_information::Error;
 use mean_information::limit::{RepeatedScans, Weight, closed_form, rigorous};
@@ -42,6 +43,21 @@ pub(super) fn section() -> Result<Section, Failure> {
             cartesian.limit,
             rooms.iter().flat_map(|room| &room.series).map(|series| series.rows.len()).sum::<usize>()
         ),
+        theory: &[
+            Theory {
+                words: "In a polar grid each step along a beam has as many cells as any other, so the limit is the mean along \
+                        the beam",
+                formula: formulas::RADIAL_LIMIT,
+                chapter: ["limit", "The limit"],
+            },
+            Theory {
+                words: "In a grid of squares a ring twice as far out has twice as many cells, so the limit is the mean over the \
+                        area, with the factor ρ. Near the wall, where there is most area, is also where a reading says least \
+                        surely: this limit is the lower one",
+                formula: formulas::AREA_LIMIT,
+                chapter: ["erratum", "An erratum to the report"],
+            },
+        ],
         picture: Sheet::new(
             rows,
             format!(

@@ -1,8 +1,8 @@
 //! Fig. 1: two scans of one place, alone, fused where they belong, and fused out of place.
 
-use super::{Claim, Figure, Section};
+use super::{Claim, Figure, Section, Theory};
 use crate::failure::Failure;
-use crate::output::short;
+use crate::output::{formulas, short};
 use crate::plots::{MapPanel, Sheet, panels};
 use crate::simulation::{Random, Readings, Room, RoomName, Scanner, insert, trajectory};
 use mean_information::cell::{Cell, information};
@@ -153,6 +153,19 @@ fn figure(scans: &Scans, maps: &[Grid<LogOdds<f64>>; 4]) -> Result<Figure, Failu
              as the other says occupied: they cancel to exactly 1/2, and leave the mean as unknown.",
             scans.contradictions()?
         ),
+        theory: &[
+            Theory {
+                words: "The mean information of a map is that of all its cells together, by the number of those of which \
+                        something is known",
+                formula: formulas::MEAN_INFORMATION,
+                chapter: ["map", "A map"],
+            },
+            Theory {
+                words: "Scans are fused cell by cell, as observations that do not depend on one another",
+                formula: formulas::FUSION,
+                chapter: ["fusion", "Fusion"],
+            },
+        ],
         picture: Sheet::new(
             rows,
             format!(

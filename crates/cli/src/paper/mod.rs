@@ -28,8 +28,21 @@ pub struct Figure {
     pub should: &'static str,
     /// The finding here.
     pub shows: String,
+    /// The formulas below them on the page.
+    pub theory: &'static [Theory],
     /// The picture, which describes itself to those who do not see it.
     pub picture: Sheet,
+}
+
+/// A formula that a figure rests on.
+#[derive(Debug)]
+pub struct Theory {
+    /// Words before the formula, for a reader who has not read the report.
+    pub words: &'static str,
+    /// The formula, in MathML.
+    pub formula: &'static str,
+    /// The chapter of the book that derives it, by its name and in words.
+    pub chapter: [&'static str; 2],
 }
 
 /// Something the report says that can be checked.

@@ -1,7 +1,7 @@
 //! The page: text, figures and table in one file that needs no other.
 
-use super::{Claim, Figure, Paper, Verdict};
-use crate::output::{self, escaped};
+use super::{Claim, Figure, Paper, Theory, Verdict};
+use crate::output::{self, book, escaped};
 
 pub(super) fn page(paper: &Paper) -> String {
     let figures: String = paper.figures.iter().map(figure).collect();
@@ -11,9 +11,10 @@ pub(super) fn page(paper: &Paper) -> String {
     let body = format!(
         r##"<p>The figures and claims of J.-L. Blanco, <cite>Derivation of an Expression for the Mean Information Maximum Value</cite>
 (technical report, University of Malaga), computed again by <code>meaninfo paper</code>. Maps are made of simulated scans;
-white is free, black is occupied, blue-grey is unknown. Every number on this page is computed as the page is made, and is the
-same on every run and machine.</p>
-<p>{} claims: {pass} hold as they stand, {corrected} are corrected, {fail} failed. <a href="#claims">The table</a> has them.</p>
+white is free, black is occupied, blue-grey is unknown, and an orange dot is where the robot was. Every number on this page is
+computed as the page is made, and is the same on every run and machine.</p>
+<p>{} claims: {pass} hold as they stand, {corrected} are corrected, {fail} failed. <a href="#claims">The table</a> has them.
+The derivations are in {}, and each statement of the report with its chapter, function and test in {}.</p>
 {figures}<section id="claims">
 <h2>What can be checked</h2>
 <table>
@@ -24,20 +25,28 @@ same on every run and machine.</p>
 </table>
 </section>
 "##,
-        paper.claims.len()
+        paper.claims.len(),
+        book("", "the book"),
+        book("paper", "the report, line by line"),
     );
     output::page("The mean information of occupancy maps, reproduced", &body)
 }
 
 fn figure(figure: &Figure) -> String {
-    let Figure { file, title, should, shows, picture } = figure;
+    let Figure { file, title, should, shows, theory, picture } = figure;
     let picture = picture.element();
+    let theory: String = theory.iter().map(formula).collect();
     let id = file.trim_end_matches(".svg");
     let [title, should, shows] = [title, should, shows.as_str()].map(escaped);
     format!(
         "<section id=\"{id}\">\n<h2>{title}</h2>\n<figure>\n{picture}<figcaption>\n<dl>\n<dt>What the report says it shows</dt>\n<dd>{should}</dd>\n<dt>What it shows here</dt>\n\
-         <dd>{shows}</dd>\n</dl>\n</figcaption>\n</figure>\n</section>\n"
+         <dd>{shows}</dd>\n</dl>\n</figcaption>\n</figure>\n{theory}</section>\n"
     )
+}
+
+fn formula(theory: &Theory) -> String {
+    let Theory { words, formula, chapter: [chapter, name] } = theory;
+    format!("<p>{} (chapter {}):</p>\n{formula}\n", escaped(words), book(chapter, name))
 }
 
 fn claim(claim: &Claim) -> String {

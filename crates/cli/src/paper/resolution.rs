@@ -1,8 +1,9 @@
 //! Fig. 2: the same scans in grids of many resolutions, from 1 m to 2.5 mm.
 
-use super::{Claim, Figure, Section};
+use super::{Claim, Figure, Section, Theory};
 use crate::failure::Failure;
-use crate::plots::{Chart, ChartPanel, Colour, Curve, MapPanel, Marks, Scale, Sheet, Svg, panels};
+use crate::output::formulas;
+use crate::plots::{Chart, ChartPanel, Colour, Curve, MapPanel, Marks, Scale, Shape, Sheet, Svg, panels};
 use crate::simulation::{Journey, RoomName, Scanner, insert};
 use mean_information::map::Grid;
 use mean_information::map::encoding::LogOdds;
@@ -62,9 +63,9 @@ impl Sizes {
         points.fold((0.0, 0.0), |a, b| if b.1 > a.1 { b } else { a })
     }
 
-    fn curve(&self, name: &str, colour: Colour, of: fn(&Tally<f64>) -> f64) -> Curve {
+    fn curve(&self, name: &str, (colour, shape): (Colour, Shape), of: fn(&Tally<f64>) -> f64) -> Curve {
         let points = self.0.iter().rev().map(|(size, tally)| (*size, of(tally))).collect();
-        Curve { name: name.to_owned(), colour, marks: Marks::Each, points }
+        Curve { name: name.to_owned(), colour, marks: Marks::Each(shape), points }
     }
 }
 
@@ -119,11 +120,12 @@ impl Measured {
         let mean = Tally::mean_information;
         let panel = |vertical, scale, curves| ChartPanel { vertical, scale, curves, marks: Vec::new() };
         let curves = vec![
-            self.few.curve("inserted, 720 beams", Colour::Blue, mean),
-            self.many.curve("inserted, 3600 beams", Colour::Orange, mean),
-            self.averaged.curve("3600 beams, finest map averaged", Colour::Grey, mean),
+            self.few.curve("inserted, 720 beams", (Colour::Blue, Shape::Circle), mean),
+            self.many.curve("inserted, 3600 beams", (Colour::Orange, Shape::Square), mean),
+            self.averaged.curve("3600 beams, finest map averaged", (Colour::Grey, Shape::Triangle), mean),
         ];
-        let entropy = vec![self.few.curve("inserted, 720 beams", Colour::Blue, Tally::entropy)];
+        let entropy =
+            vec![self.few.curve("inserted, 720 beams", (Colour::Blue, Shape::Circle), Tally::entropy)];
         Chart {
             title: "(d) The same scans in cells of many sizes".to_owned(),
             horizontal: "cell size (m)",
@@ -161,6 +163,12 @@ impl Measured {
                 self.spread(),
                 most_entropy / entropy
             ),
+            theory: &[Theory {
+                words: "An average of cells is never surer than they are on average, so that averaging can only lower the mean \
+                        information, unless cells cancel to 1/2",
+                formula: formulas::COARSER_CELLS,
+                chapter: ["map", "A map"],
+            }],
             picture: Sheet::new(
                 rows,
                 format!(

@@ -1,7 +1,8 @@
 //! Fig. 3: the inverse sensor model, Eq. 5.
 
-use super::{Claim, Figure, Section};
+use super::{Claim, Figure, Section, Theory};
 use crate::failure::Failure;
+use crate::output::formulas;
 use crate::plots::{Chart, ChartPanel, Colour, Curve, Marks, Scale, Sheet, Svg};
 use mean_information::Real;
 use mean_information::sensor::{GaussianSensor, InverseSensorModel};
@@ -16,7 +17,7 @@ pub(super) fn section() -> Result<Section, Failure> {
     let points = (0..=1400).map(|k| f64::from(k) / 2000.0);
     let points: Vec<_> = points.map(|rho| (rho, sensor.occupancy(rho))).collect();
     let chart = Chart {
-        title: format!("Occupancy along a beam that read {RANGE} m, sigma {SIGMA} m"),
+        title: format!("Occupancy along a beam that read {RANGE} m, σ = {SIGMA} m"),
         horizontal: "distance from the sensor (m)",
         scale: Scale::Linear,
         panels: [ChartPanel {
@@ -43,6 +44,11 @@ pub(super) fn section() -> Result<Section, Failure> {
              height.",
             200.0 * (reach - RANGE)
         ),
+        theory: &[Theory {
+            words: "What a reading z says of a place at the distance ρ, if its noise has the standard deviation σ",
+            formula: formulas::SENSOR,
+            chapter: ["sensor", "The inverse sensor model"],
+        }],
         picture: Sheet::new(
             vec![vec![Svg::of_plot(&chart)?]],
             "Occupancy against the distance: 0 up to 47 cm, a peak of 1 at 50 cm, down to one half at 51.2 cm, and one half \

@@ -29,7 +29,8 @@ impl Ranged for Axis {
     }
 }
 
-/// Returns the label of a tick of a decimal logarithm.
+/// Returns the label of a tick of a decimal logarithm: in digits up to ten thousand.
 pub(super) fn power_of_ten(exponent: i32) -> String {
-    format!("1e{exponent}").parse().map_or(String::new(), short)
+    let power = format!("1e{exponent}");
+    if exponent.abs() > 4 { power } else { power.parse().map_or(String::new(), short) }
 }

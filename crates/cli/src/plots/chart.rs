@@ -2,7 +2,7 @@
 
 use super::axis::{Axis, power_of_ten};
 use super::drawing::{Drawing, LABEL};
-use super::frame::{Side, curve, frame, legend};
+use super::frame::{Side, curve, frame};
 use super::marks::Marks;
 use super::scale::{logarithmic_ticks, ticks};
 use crate::output::short;
@@ -14,13 +14,9 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 const WIDTH: u32 = 640;
 const PANEL_HEIGHT: u32 = 350;
 const TITLE_HEIGHT: u32 = 36;
-/// The height of a panel between its axes.
-const PLOT_HEIGHT: f64 = 275.0;
-/// The heights of a line of the legend and of what is around it.
-const LEGEND: [f64; 2] = [22.0, 26.0];
-/// The most names within the frame; more stand in columns above it, where they take less of its height.
-const WITHIN: usize = 4;
-/// The margin beside those above it.
+/// The height of a line of the legend.
+const LINE: i32 = 22;
+/// The margin on either side of the legend.
 const SIDE: i32 = 28;
 /// The margin on either side of the points, as a part of their span.
 const MARGINS: [f64; 2] = [0.02, 0.06];
@@ -95,7 +91,7 @@ impl Colour {
         match self {
             Self::Blue => RGBColor(0, 90, 170),
             Self::Orange => RGBColor(190, 75, 0),
-            Self::Grey => RGBColor(120, 120, 120),
+            Self::Grey => RGBColor(110, 110, 110),
             Self::Green => RGBColor(0, 130, 90),
             Self::Purple => RGBColor(140, 60, 160),
             Self::Brown => RGBColor(125, 85, 20),
@@ -111,15 +107,15 @@ impl Scale {
         }
     }
 
-    /// Returns the axis of numbers at these places, with a part of it free at its end.
-    pub(super) fn axis(self, places: impl Iterator<Item = f64>, margin: f64, free: f64) -> Axis {
+    /// Returns the axis of numbers at these places, with a margin on either side as a part of their span.
+    pub(super) fn axis(self, places: impl Iterator<Item = f64>, margin: f64) -> Axis {
         let (low, high) =
             places.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
         let span = (high - low).max(1e-9);
-        let range = low - margin * span..high + (margin + free) * span;
+        let range = low - margin * span..high + margin * span;
         let ticks = match self {
-            Self::Linear => ticks(range.start, high + margin * span, 7).into_iter().map(|(x, _)| x).collect(),
-            Self::Logarithmic => logarithmic_ticks(&(range.start..=high + margin * span)),
+            Self::Linear => ticks(range.start, range.end, 7).into_iter().map(|(x, _)| x).collect(),
+            Self::Logarithmic => logarithmic_ticks(&(range.start..=range.end)),
         };
         Axis { range, ticks }
     }
@@ -159,15 +155,10 @@ impl<const PANELS: usize> Chart<PANELS> {
     ) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
         let all = || self.panels.iter().flat_map(|panel| &panel.curves).flat_map(|curve| &curve.points);
         let own = || panel.curves.iter().flat_map(|curve| &curve.points);
-        let horizontal = self.scale.axis(all().map(|&(x, _)| self.scale.place(x)), MARGINS[0], 0.0);
+        let horizontal = self.scale.axis(all().map(|&(x, _)| self.scale.place(x)), MARGINS[0]);
         let named: Vec<_> = panel.curves.iter().filter(|curve| !curve.name.is_empty()).collect();
-        let area = &if named.len() > WITHIN { above(area, &named)? } else { area.clone() };
-        let named = if named.len() > WITHIN { 0 } else { named.len() };
-        // The legend takes a part of the height; of the points' span, that much more.
-        let legend_height = if named == 0 { 0.0 } else { LEGEND[0] * named as f64 + LEGEND[1] };
-        let part = legend_height / PLOT_HEIGHT;
-        let free = part / (1.0 - part) * (1.0 + 2.0 * MARGINS[1]);
-        let vertical = panel.scale.axis(own().map(|&(_, y)| panel.scale.place(y)), MARGINS[1], free);
+        let area = &if named.is_empty() { area.clone() } else { legend(area, &named)? };
+        let vertical = panel.scale.axis(own().map(|&(_, y)| panel.scale.place(y)), MARGINS[1]);
         let (bottom, top) = (vertical.range.start, vertical.range.end);
         let middle = f64::midpoint(horizontal.range.start, horizontal.range.end);
         let mut chart = frame(
@@ -190,12 +181,12 @@ impl<const PANELS: usize> Chart<PANELS> {
                 points.iter().map(|&(x, y)| (self.scale.place(x), panel.scale.place(y))).collect();
             curve(&mut chart, name, colour.rgb(), *marks, &points)?;
         }
-        if named == 0 { Ok(()) } else { legend(&mut chart) }
+        Ok(())
     }
 }
 
-/// Draws the names of curves in columns at the top of a panel; returns the rest of it.
-fn above<B: DrawingBackend>(
+/// Draws the names of curves in columns at the top of a panel, where they hide no curve; returns the rest of it.
+fn legend<B: DrawingBackend>(
     area: &DrawingArea<B, Shift>,
     named: &[&Curve],
 ) -> Result<DrawingArea<B, Shift>, DrawingAreaErrorKind<B::ErrorType>> {
@@ -203,14 +194,15 @@ fn above<B: DrawingBackend>(
     let width = WIDTH as usize - 2 * SIDE as usize;
     // A character is at most 10 pixels wide, and the line before a name 40.
     let columns = (width / (10 * longest + 40)).clamp(1, 3);
-    let line = LEGEND[0] as i32;
-    let (names, rest) = area.split_vertically(line * named.len().div_ceil(columns) as i32 + 8);
+    let (names, rest) = area.split_vertically(LINE * named.len().div_ceil(columns) as i32 + 8);
     for (index, Curve { name, colour, marks, .. }) in named.iter().enumerate() {
         let column = (index % columns * width / columns) as i32;
-        let (x, y) = (SIDE + column, line / 2 + 4 + line * (index / columns) as i32);
+        let (x, y) = (SIDE + column, LINE / 2 + 4 + LINE * (index / columns) as i32);
         let colour = colour.rgb();
-        names.draw(&PathElement::new([(x, y), (x + 20, y)], colour.stroke_width(2)))?;
-        if *marks == Marks::Each {
+        if *marks != Marks::Alone {
+            names.draw(&PathElement::new([(x, y), (x + 20, y)], colour.stroke_width(2)))?;
+        }
+        if marks.is_dotted() {
             names.draw(&Circle::new((x + 10, y), 4, colour.filled()))?;
         }
         names.draw(&Polygon::new(marks.outline((x + 10, y)), colour.filled()))?;
@@ -222,14 +214,14 @@ fn above<B: DrawingBackend>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plots::Picture;
+    use crate::plots::{Picture, Shape};
 
     /// The horizontal places of the names of so many curves.
     fn places(curves: usize) -> Vec<u32> {
         let curve = |k: usize| Curve {
             name: format!("curve {k}"),
             colour: Colour::Blue,
-            marks: Marks::Each,
+            marks: Marks::Each(Shape::Circle),
             points: vec![(0.0, k as f64), (2.0, 0.5)],
         };
         let panel = ChartPanel {
@@ -251,10 +243,8 @@ mod tests {
     }
 
     #[test]
-    fn many_names_stand_above_in_columns() {
-        let within = places(WITHIN);
-        assert!(within.iter().all(|&x| x == within[0] && x > WIDTH / 2), "{within:?}");
-        let above = places(WITHIN + 1);
+    fn names_stand_above_in_columns() {
+        let above = places(5);
         assert_eq!(above[..2], above[3..]);
         assert!(above[0] < above[1] && above[1] < above[2], "{above:?}");
     }

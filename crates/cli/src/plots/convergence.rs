@@ -5,7 +5,7 @@ use super::axis::Axis;
 use super::chart::Colour;
 use super::drawing::Drawing;
 use super::frame::{Side, curve, frame, legend};
-use super::marks::Marks;
+use super::marks::{Marks, Shape};
 use super::scale::{logarithmic_ticks, round_step};
 use crate::convergence::{Convergence, GridKind, Series};
 use crate::output::short;
@@ -71,6 +71,14 @@ fn colour(kind: GridKind) -> RGBColor {
     }
 }
 
+/// Returns the mark of a kind of grid, by which it is told without its colour.
+fn shape(kind: GridKind) -> Shape {
+    match kind {
+        GridKind::Polar => Shape::Circle,
+        GridKind::Cartesian => Shape::Square,
+    }
+}
+
 impl Drawing for ConvergencePlot<'_> {
     const SIZE: (u32, u32) = SIZE;
 
@@ -124,7 +132,8 @@ impl Drawing for ConvergencePlot<'_> {
             let mut points: Vec<_> =
                 series.rows.iter().map(|row| (libm::log10(row.resolution), row.mean_information)).collect();
             points.sort_by(|a, b| a.0.total_cmp(&b.0));
-            curve(&mut chart, &format!("{} grid", series.kind.adjective()), colour, Marks::Each, &points)?;
+            let marks = Marks::Each(shape(series.kind));
+            curve(&mut chart, &format!("{} grid", series.kind.adjective()), colour, marks, &points)?;
         }
         legend(&mut chart)
     }

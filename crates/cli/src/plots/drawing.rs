@@ -3,6 +3,7 @@
 use super::bitmap::Bitmap;
 use super::canvas::Canvas;
 use crate::failure::Failure;
+use crate::output::escaped;
 use mean_information_report::one_line;
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -71,7 +72,11 @@ pub trait Drawing {
                 let mut text = String::new();
                 self.draw_on(&SVGBackend::with_string(&mut text, Self::SIZE).into_drawing_area())
                     .map_err(drawing_failure)?;
-                Ok(text.into_bytes())
+                // For those who do not see it, in a page that does not describe it.
+                let label = escaped(&self.title());
+                Ok(text
+                    .replacen("<svg ", &format!("<svg role=\"img\" aria-label=\"{label}\" "), 1)
+                    .into_bytes())
             }
             Picture::Png => {
                 let mut picture = Bitmap::new(Self::SIZE.0, Self::SIZE.1);

@@ -2,7 +2,7 @@
 
 use super::axis::Axis;
 use super::drawing::LABEL;
-use super::marks::Marks;
+use super::marks::{Marks, Shape};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
@@ -75,16 +75,14 @@ pub(super) fn curve<'a, B: DrawingBackend + 'a>(
                 + Polygon::new(marks.outline((10, 0)), colour.filled())
         });
     }
+    let marked = |point| EmptyElement::at(point) + Polygon::new(marks.outline((0, 0)), colour.filled());
     match marks {
         Marks::None => {}
-        Marks::Each | Marks::Alone => {
+        Marks::Each(Shape::Circle) | Marks::Alone => {
             frame.draw_series(points.iter().map(|&point| Circle::new(point, 4, colour.filled())))?;
         }
-        Marks::Spaced(shape) => {
-            let marked =
-                |point| EmptyElement::at(point) + Polygon::new(marks.outline((0, 0)), colour.filled());
-            frame.draw_series(shape.spaced(points).map(marked))?;
-        }
+        Marks::Each(_) => frame.draw_series(points.iter().copied().map(marked)).map(drop)?,
+        Marks::Spaced(shape) => frame.draw_series(shape.spaced(points).map(marked)).map(drop)?,
     }
     Ok(())
 }

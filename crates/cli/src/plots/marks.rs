@@ -5,8 +5,8 @@
 pub enum Marks {
     /// None.
     None,
-    /// A dot on each point.
-    Each,
+    /// A shape on each point; a circle is a dot.
+    Each(Shape),
     /// A dot on each point, and no line.
     Alone,
     /// A shape on a few points.
@@ -89,14 +89,17 @@ impl Shape {
 impl Marks {
     /// Tells whether each point has a dot.
     pub(super) fn is_dotted(self) -> bool {
-        matches!(self, Self::Each | Self::Alone)
+        matches!(self, Self::Each(Shape::Circle) | Self::Alone)
     }
 
-    /// Returns the outline of a shape about a point; empty of no shape.
+    /// Returns the outline of a shape about a point; empty of no shape and of a dot.
     pub(super) fn outline(self, (x, y): (i32, i32)) -> Vec<(i32, i32)> {
         match self {
-            Self::Spaced(shape) => shape.outline().iter().map(|(dx, dy)| (x + dx, y + dy)).collect(),
-            Self::None | Self::Each | Self::Alone => Vec::new(),
+            _ if self.is_dotted() => Vec::new(),
+            Self::Spaced(shape) | Self::Each(shape) => {
+                shape.outline().iter().map(|(dx, dy)| (x + dx, y + dy)).collect()
+            }
+            Self::None | Self::Alone => Vec::new(),
         }
     }
 }

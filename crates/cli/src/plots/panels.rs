@@ -155,8 +155,9 @@ impl MapPanel {
             far_y - image_y,
             BASE64_STANDARD.encode(&self.png)
         ));
-        for [px, py] in self.places.iter().map(|&place| at(place)) {
-            sheet.add(&format!(r#"<circle cx="{px:.2}" cy="{py:.2}" r="5" fill="{PATH}"/>"#));
+        let dot = |[px, py]: [f64; 2]| format!(r#"<circle cx="{px:.2}" cy="{py:.2}" r="5" fill="{PATH}"/>"#);
+        for place in self.places.iter().map(|&place| at(place)) {
+            sheet.add(&dot(place));
         }
         self.draw_path(&mut sheet, at);
         let y = TITLES + height + GAP;
@@ -169,6 +170,10 @@ impl MapPanel {
         // The text is set about its middle; a digit is about 10 pixels wide.
         let text = format!("{} m", short(metres));
         sheet.add_text(x + bar + 9.0 + 5.0 * text.len() as f64, y + 6.0, "normal", &text);
+        if !self.places.is_empty() {
+            sheet.add(&dot([x + width - 62.0, y]));
+            sheet.add_text(x + width - 26.0, y + 6.0, "normal", "robot");
+        }
         sheet
     }
 

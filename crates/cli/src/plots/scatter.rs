@@ -53,8 +53,8 @@ impl Drawing for Scatter {
         paper: &DrawingArea<B, Shift>,
     ) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
         let all = || self.clouds.iter().flat_map(|cloud| &cloud.points);
-        let horizontal = self.scale.axis(all().map(|&(x, _)| self.scale.place(x)), MARGIN, 0.0);
-        let vertical = Scale::Linear.axis(all().map(|&(_, y)| y), MARGIN, 0.0);
+        let horizontal = self.scale.axis(all().map(|&(x, _)| self.scale.place(x)), MARGIN);
+        let vertical = Scale::Linear.axis(all().map(|&(_, y)| y), MARGIN);
         let (width, _) = paper.dim_in_pixel();
         let (plot, legend) = paper.split_horizontally(width - 112);
         let mut chart = frame(

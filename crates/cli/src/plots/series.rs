@@ -4,7 +4,7 @@ use super::axis::Axis;
 use super::chart::Colour;
 use super::drawing::Drawing;
 use super::frame::{LEGEND_ROOM, Side, curve, frame, legend};
-use super::marks::Marks;
+use super::marks::{Marks, Shape};
 use super::scale::round_step;
 use crate::output::short;
 use crate::series::Series;
@@ -62,7 +62,7 @@ impl SeriesPlot {
             Side { axis: horizontal, title: "time after the first map (s)", label: &short },
             Side { axis, title, label: &short },
         )?;
-        let marks = if points.len() <= DOTS { Marks::Each } else { Marks::None };
+        let marks = if points.len() <= DOTS { Marks::Each(Shape::Circle) } else { Marks::None };
         curve(&mut chart, label, colour, marks, points)?;
         legend(&mut chart)
     }

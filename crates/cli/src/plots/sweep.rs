@@ -4,7 +4,7 @@ use super::axis::{Axis, power_of_ten};
 use super::chart::Colour;
 use super::drawing::Drawing;
 use super::frame::{LEGEND_ROOM, Side, curve, frame, legend};
-use super::marks::Marks;
+use super::marks::{Marks, Shape};
 use crate::output::short;
 use mean_information_report::sweep::{Step, Sweep};
 use plotters::coord::Shift;
@@ -133,7 +133,7 @@ impl SweepPlot {
             },
             Side { axis: half.axis.clone(), title: half.axis_label, label: half.tick_label },
         )?;
-        curve(&mut chart, half.label, half.colour, Marks::Each, half.points)?;
+        curve(&mut chart, half.label, half.colour, Marks::Each(Shape::Circle), half.points)?;
         legend(&mut chart)
     }
 }

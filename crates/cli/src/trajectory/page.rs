@@ -3,7 +3,7 @@
 use super::pictures::Pictures;
 use super::row::Row;
 use crate::failure::Failure;
-use crate::output::{self, escaped, short};
+use crate::output::{self, book, escaped, formulas, short};
 use crate::plots::{Sheet, panels};
 use mean_information_report::one_line;
 
@@ -40,6 +40,10 @@ impl Pictures<'_> {
         let maps =
             Sheet::new(panels(&maps, 2), "Each trajectory's map beside its contradictions.".to_owned());
         let (curves, maps, top) = (curves.element(), maps.element(), short(top));
+        let meaning = MEANING
+            .replace("{mean information}", formulas::MEAN_INFORMATION)
+            .replace("{agreement}", formulas::AGREEMENT)
+            .replace("{chapter}", &book("evidence", "Evidence"));
         let body = format!(
             r#"{answer}<p>Trajectories compared by the maps that they make of the scans of <code>{log}</code>, without ground truth:
 where a trajectory is wrong, scans contradict one another.</p>
@@ -69,7 +73,7 @@ which has a dot, to light blue at its last; the other dots have the seconds sinc
 Walls that are seen twice are where a trajectory is wrong; doors and people contradict under any.</figcaption>
 </figure>
 {contradictions}</section>
-{MEANING}"#
+{meaning}"#
         );
         Ok(output::page("Which trajectory is right?", &body))
     }

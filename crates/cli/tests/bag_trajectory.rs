@@ -144,6 +144,11 @@ fn options_that_a_file_has_no_use_for_and_choices() {
         ),
         (&[&path, "--base", "laser", "--pose-topics", "/odom,/gps"], "has no topic /gps"),
         (
+            &[&path, "--base", "plate"],
+            "TF does not connect laser with plate; the frames over laser are: base_link, ",
+        ),
+        (&[&path, "--base", "plate"], "; --base names one"),
+        (
             &[&bag("maps_none.bag")],
             "has no topic of type sensor_msgs/LaserScan; topics of its scans are: none",
         ),

@@ -85,6 +85,7 @@ pub fn in_words(warnings: &[Warning]) -> Vec<String> {
             let most = [least, greatest].map(|&p| cell::information(p)).into_iter().fold(0.0, f32::max);
             format!("{warning}, so that the mean information is at most {most:.3}")
         }
+        Warning::NoGreatestRange { .. } => format!("{warning}; --max-range says it"),
         Warning::SubmapsTogether { .. } => format!("{warning}; --submaps gives each a row"),
         Warning::OftenUnknownValue { value, .. } => {
             format!("{warning}; give --unknown {value} if it means unknown here")

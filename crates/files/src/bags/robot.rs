@@ -3,7 +3,7 @@
 use super::recording::Poses;
 use super::refusals::{choice, unstamped};
 use super::transforms::Transforms;
-use crate::error::{Error, ErrorKind};
+use crate::error::{Error, ErrorKind, Place};
 use crate::scans::{Frame, RangeScan, RecordedTrajectory, Selection};
 use crate::trajectory::{Quaternion, Rigid, Tilts, Trajectory};
 use crate::warning::Warning;
@@ -46,7 +46,8 @@ impl Robot<'_> {
         if self.selection.mount.is_some() || self.is_laser() {
             return Ok(None);
         }
-        self.fixed(self.laser, self.base, "the laser is there").map(Some)
+        let on_base = self.fixed(self.laser, self.base, "the laser is there");
+        on_base.map(Some).map_err(|error| error.at(Place::Option("base")))
     }
 
     /// Returns the pose of a frame in another in which it does not move.

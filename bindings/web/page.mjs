@@ -3,6 +3,7 @@ import { createHash } from "node:crypto";
 import { readFileSync, writeFileSync } from "node:fs";
 import { gzipSync } from "node:zlib";
 import { load } from "./page/module.mjs";
+import { DIGITS } from "./page/unzipped.mjs";
 
 const [wasmPath, out] = process.argv.slice(2);
 const text = (path) => readFileSync(new URL(path, import.meta.url), "utf8");
@@ -16,8 +17,26 @@ const joined = (names) =>
     .replace(/^import .*\n/gm, "")
     .replace(/^export /gm, "");
 
-const main = joined(["parts", "client", "chart", "picture", "heatmap", "maps", "room", "cell", "main"]);
-const worker = joined(["module", "worker"]);
+/** Packs bytes for `unzipped`. */
+const packed = (bytes) => {
+  const zipped = gzipSync(bytes, { level: 9 });
+  const left = -zipped.length & 3;
+  const words = Buffer.concat([zipped, Buffer.alloc(left)]);
+  let text = String(left);
+  for (let at = 0; at < words.length; at += 4) {
+    let word = words.readUInt32BE(at);
+    const digits = Array.from({ length: 5 }, () => {
+      const digit = DIGITS[word % 85];
+      word = Math.floor(word / 85);
+      return digit;
+    });
+    text += digits.reverse().join("");
+  }
+  return text;
+};
+
+const main = joined(["parts", "unzipped", "client", "chart", "picture", "heatmap", "maps", "room", "cell", "main"]);
+const worker = joined(["module", "unzipped", "worker"]);
 const sample = ["room.yaml", "room.pgm"].map((name) => ({
   name,
   base64: readFileSync(new URL(`../../maps/${name}`, import.meta.url)).toString("base64"),
@@ -37,13 +56,14 @@ const parts = {
   STYLE: style,
   SAMPLE: JSON.stringify(sample),
   WORKER: worker,
-  WASM: gzipSync(wasm, { level: 9 }).toString("base64"),
+  WASM: packed(wasm),
+  "THIRD-PARTY": packed(text("THIRD_PARTY.txt")),
   MAIN: main,
 };
 for (const [name, part] of Object.entries(parts)) {
   if (/<\/script|<!--/i.test(part)) throw new Error(`${name} would end its element`);
 }
-const page = text("page/index.html").replace(/SCRIPT-HASH|\bSTYLE\b|\bSAMPLE\b|\bWORKER\b|\bWASM\b|\bMAIN\b/g, (name) => parts[name]);
+const page = text("page/index.html").replace(/SCRIPT-HASH|\bSTYLE\b|\bSAMPLE\b|\bWORKER\b|\bWASM\b|\bTHIRD-PARTY\b|\bMAIN\b/g, (name) => parts[name]);
 if (page.length >= 1e6) throw new Error(`the page has ${page.length} bytes, more than a million`);
 writeFileSync(out, page);
 console.log(`${out}: ${page.length} bytes`);

@@ -1,10 +1,10 @@
 // The page in headless Chromium against the command: node bindings/web/test.mjs MEANINFO [PAGE.html]
 //
 // playwright-core and axe-core come from the npm registry to target/web; pictures of every view, width and colour scheme are
-// left in target/web/pictures.
+// left in target/web/pictures. ONLY=WORDS runs the tests whose names hold these words.
 import assert from "node:assert/strict";
 import { execFileSync, spawnSync } from "node:child_process";
-import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { existsSync, mkdirSync, readFileSync, rmSync, truncateSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { dirname, join, resolve } from "node:path";
@@ -37,17 +37,20 @@ const made = (name, bytes) => {
 };
 const YAML = (image) => `image: ${image}\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n`;
 
-const browser = await chromium.launch({
+/** Begins a browser. */
+const launch = (...args) => chromium.launch({
   executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
   args: ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
-    "--disable-component-update", "--disable-sync"],
+    "--disable-component-update", "--disable-sync", ...args],
 });
+const browser = await launch();
 let passed = 0;
 const troubles = [];
 
 /** Opens the page anew, and runs a test on it; nothing may be asked of a network. */
 async function test(name, run, options = {}) {
-  const context = await browser.newContext({ acceptDownloads: true, ...options });
+  if (!name.includes(process.env.ONLY ?? "")) return;
+  const context = await (options.browser ?? browser).newContext({ acceptDownloads: true, ...options });
   await context.setOffline(true);
   const tab = await context.newPage();
   tab.setDefaultTimeout(60_000);
@@ -88,6 +91,40 @@ const drop = async (tab, paths) => {
     return transfer;
   }, files);
   await tab.dispatchEvent("#drop", "drop", { dataTransfer: data });
+};
+/** Drags paths of the disk over the page and drops them, folders, too. */
+const drag = async (tab, paths) => {
+  const session = await tab.context().newCDPSession(tab);
+  const { x, y } = await tab.locator("#drop").boundingBox();
+  const data = { items: [], files: paths, dragOperationsMask: 1 };
+  for (const type of ["dragEnter", "dragOver", "drop"]) {
+    await session.send("Input.dispatchDragEvent", { type, x: x + 9, y: y + 9, data });
+  }
+};
+/** What the command says of a map in the folder of the tests' own files. */
+const measured = (name) => {
+  const { status, stdout, stderr } = spawnSync(meaninfo, ["map", name, "--format", "json"], { cwd: work, encoding: "utf8" });
+  return status === 0 ? JSON.parse(stdout)[0] : stderr.trim();
+};
+/** A file of so many bytes that takes no room on the disk: zeros behind its beginning. */
+const sparse = (name, beginning, length) => {
+  const path = made(name, Buffer.from(beginning, "latin1"));
+  truncateSync(path, length);
+  return path;
+};
+/** The head of an array of float32, which a file of NumPy begins with. */
+const npyHead = (...shape) => {
+  const head = `{'descr': '<f4', 'fortran_order': False, 'shape': (${shape.join(", ")}), }`.padEnd(117) + "\n";
+  return `\x93NUMPY\x01\x00${String.fromCharCode(head.length & 255, head.length >> 8)}${head}`;
+};
+const goesOn = async (tab) => {
+  await drop(tab, ["room.yaml", "room.pgm"].map((name) => join(maps, name)));
+  await tab.waitForFunction(() => document.getElementById("rows").textContent.includes("room.yaml"));
+  // The map that was looked at before stays chosen where it has a number.
+  if (await tab.locator("#several").isVisible()) await tab.click("#rows button >> text=room.yaml");
+  await tab.waitForFunction(() => document.getElementById("chosen").textContent === "room.yaml");
+  await idle(tab);
+  assert.equal(await tab.textContent("#number"), String(JSON.parse(json("map", "room.yaml"))[0].mean_information));
 };
 const accessible = async (tab) => {
   await tab.evaluate(axe);
@@ -134,11 +171,8 @@ await test("a broken map is refused by the command's line, and the page goes on"
   const broken = made("broken.yaml", YAML("broken.pgm").replace("0.05", "-0.05"));
   await drop(tab, [broken, made("broken.pgm", "P5 1 1 255 x")]);
   await tab.locator("#errors p").waitFor();
-  const line = spawnSync(meaninfo, ["map", "broken.yaml"], { cwd: work, encoding: "utf8" }).stderr.trim();
-  assert.equal(await tab.textContent("#errors p"), line);
-  await drop(tab, ["room.yaml", "room.pgm"].map((name) => join(maps, name)));
-  await idle(tab);
-  assert.equal(await tab.textContent("#number"), String(JSON.parse(json("map", "room.yaml"))[0].mean_information));
+  assert.equal(await tab.textContent("#errors p"), measured("broken.yaml"));
+  await goesOn(tab);
 });
 
 await test("a yaml file without its image asks for it", async (tab) => {
@@ -159,7 +193,7 @@ await test("an image without a yaml file can be described", async (tab) => {
   await tab.click("#describe button");
   await idle(tab);
   made("plan.yaml", YAML("plan.pgm"));
-  const [row] = JSON.parse(spawnSync(meaninfo, ["map", "plan.yaml", "--format", "json"], { cwd: work, encoding: "utf8" }).stdout);
+  const row = measured("plan.yaml");
   assert.equal(await tab.textContent("#number"), String(row.mean_information));
   assert.deepEqual(await tab.locator("#warnings li").allTextContents(), row.warnings);
   assert.equal(await tab.locator("#describe").isVisible(), false);
@@ -167,11 +201,8 @@ await test("an image without a yaml file can be described", async (tab) => {
 
 await test("three maps at once make a table", async (tab) => {
   await idle(tab);
-  const npy = (values) => {
-    const head = `{'descr': '<f4', 'fortran_order': False, 'shape': (2, ${values.length / 2}), }`.padEnd(117) + "\n";
-    const length = Buffer.from([head.length & 255, head.length >> 8]);
-    return Buffer.concat([Buffer.from("\x93NUMPY\x01\x00", "latin1"), length, Buffer.from(head), Buffer.from(new Float32Array(values).buffer)]);
-  };
+  const npy = (values) =>
+    Buffer.concat([Buffer.from(npyHead(2, values.length / 2), "latin1"), Buffer.from(new Float32Array(values).buffer)]);
   const paths = [made("a.npy", npy([0.1, 0.5, 0.9, 0.25])), made("b.npy", npy([0.5, 0.5, 0.5, 0.5, 0.75, 1])), made("c.npy", npy([0, 1, 1, 0]))];
   await drop(tab, paths);
   await tab.waitForFunction(() => document.querySelectorAll("#rows tr").length === 3);
@@ -189,6 +220,73 @@ await test("three maps at once make a table", async (tab) => {
   const number = String(JSON.parse(asLogOdds.stdout)[0].mean_information);
   await tab.waitForFunction((number) => document.getElementById("number").textContent === number, number);
   await idle(tab);
+  await accessible(tab);
+});
+
+await test("a folder is refused by the command's line, and what came with it is measured", async (tab) => {
+  await idle(tab);
+  mkdirSync(join(work, "folder.yaml"), { recursive: true });
+  await drag(tab, [join(work, "folder.yaml"), made("beside.npy", Buffer.from(npyHead(1, 1) + "\x00\x00\x80\x3e", "latin1"))]);
+  await tab.locator("#errors p").waitFor();
+  assert.deepEqual(await tab.locator("#errors p").allTextContents(), [measured("folder.yaml")]);
+  assert.equal(await tab.textContent("#number"), String(measured("beside.npy").mean_information));
+});
+
+await test("files of five gigabytes, a map and none", async (tab) => {
+  await idle(tab);
+  made("long.yaml", YAML("long.pgm"));
+  sparse("long.pgm", "P5\n2 1\n255\n\x00\xfe", 5e9);
+  const row = measured("long.yaml");
+  assert.match(row.warnings.join(" "), /goes on after its image/);
+  sparse("none.npy", "", 5e9);
+  await tab.setInputFiles("#files", ["long.yaml", "long.pgm", "none.npy"].map((name) => join(work, name)));
+  await tab.locator("#errors p").waitFor();
+  assert.deepEqual(await tab.locator("#errors p").allTextContents(), [measured("none.npy")]);
+  await tab.waitForFunction(() => document.getElementById("chosen").textContent === "long.yaml");
+  assert.equal(await tab.textContent("#number"), String(row.mean_information));
+  assert.deepEqual(await tab.locator("#warnings li").allTextContents(), row.warnings);
+});
+
+await test("100 million cells hold up nothing else, and can be stopped", async (tab) => {
+  await idle(tab);
+  made("wide.yaml", YAML("wide.pgm"));
+  sparse("wide.pgm", "P5\n10000 10000\n255\n", 1e8 + 18);
+  // In the page, as the way to a browser under load may take longer than the map.
+  const seen = tab.evaluate(async () => {
+    const until = async (is) => { while (!is()) await new Promise((next) => setTimeout(next, 5)); };
+    const [stop, p] = ["stop", "p"].map((id) => document.getElementById(id));
+    await until(() => !stop.hidden);
+    document.getElementById("cell-tab").click();
+    p.value = "0x1.8p-2";
+    p.dispatchEvent(new Event("input", { bubbles: true }));
+    await until(() => document.getElementById("one-rows").textContent.includes("0.375"));
+    const isWorking = !stop.hidden;
+    document.getElementById("map-tab").click();
+    stop.click();
+    return isWorking;
+  });
+  await tab.setInputFiles("#files", ["wide.yaml", "wide.pgm"].map((name) => join(work, name)));
+  assert.ok(await seen, "the map was measured before one cell: nothing was seen");
+  await tab.locator("#stop").waitFor({ state: "hidden" });
+  await goesOn(tab);
+});
+
+const small = await launch("--js-flags=--wasm-max-mem-pages=768");
+await test("where memory lacks, this is told, and the page goes on", async (tab) => {
+  await idle(tab);
+  await tab.setInputFiles("#files", sparse("large.npy", npyHead(4000, 4000), 128 + 64e6));
+  await tab.locator("#no-picture:not(:empty)").waitFor();
+  assert.match(await tab.textContent("#no-picture"), /not enough memory/);
+  // Its number needs no memory.
+  assert.equal(await tab.textContent("#number"), String(measured("large.npy").mean_information));
+  await goesOn(tab);
+}, { browser: small });
+await small.close();
+
+await test("the licences of others", async (tab) => {
+  await tab.click("#licences summary");
+  await tab.locator("#licences-text:not(:empty)").waitFor();
+  assert.equal(await tab.textContent("#licences-text"), readFileSync(new URL("THIRD_PARTY.txt", import.meta.url), "utf8"));
   await accessible(tab);
 });
 

@@ -1,5 +1,7 @@
-"""Times beside NumPy and SciPy, for `benches/RESULTS.md`: `python speed.py`. Each ratio is that of the least of seven runs."""
+"""Times beside NumPy and SciPy, for `benches/RESULTS.md`: `python speed.py`. Of processor time, as other work may keep the
+machine busy and all of these have one thread; each ratio is that of the least of seven runs."""
 
+import time
 import timeit
 
 import mean_information as mi
@@ -9,7 +11,7 @@ from scipy.special import entr
 
 def seconds(function, *arguments, number=1, repeat=7):
     """Return the least time of a call."""
-    return min(timeit.repeat(lambda: function(*arguments), number=number, repeat=repeat)) / number
+    return min(timeit.repeat(lambda: function(*arguments), timer=time.process_time, number=number, repeat=repeat)) / number
 
 
 def by_scipy(p):

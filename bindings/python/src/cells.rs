@@ -8,7 +8,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 /// The cells that are measured at once.
-const PIECE: usize = 1 << 20;
+const PIECE: usize = 1 << 22;
 /// The cells that are gathered at once, where they lie apart.
 const GATHERED: usize = 1 << 12;
 

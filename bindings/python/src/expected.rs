@@ -2,6 +2,7 @@
 
 use crate::encodings::{Array, with_encoding};
 use crate::errors::{out_of_memory, refused};
+use crate::long_work::watched;
 use crate::tally::{Format, PyTally};
 use mean_information::Real;
 use mean_information::expected::Hypotheses;
@@ -60,20 +61,19 @@ pub(crate) fn expected_map(
             let array = particle.extract::<numpy::PyReadonlyArray2<'_, <Encoding_ as Encoding>::Stored>>()?;
             maps.push(grid::<Encoding_>(index, array.as_array())?);
         }
-        expected::<Encoding_>(py, &maps, &weights)
+        expected::<Encoding_>(py, maps, weights)
     })
 }
 
 /// Computes the expected map of grids.
-fn expected<E: Encoding<Float: Format>>(
-    py: Python<'_>,
-    maps: &[Grid<E>],
-    weights: &[f64],
-) -> PyResult<PyExpectedMap> {
-    let computed = py.detach(|| {
-        let hypotheses = Hypotheses::new(maps, weights)?;
+fn expected<E>(py: Python<'_>, maps: Vec<Grid<E>>, weights: Vec<f64>) -> PyResult<PyExpectedMap>
+where
+    E: Encoding<Float: Format, Stored: Send> + Send + 'static,
+{
+    let computed = watched(py, move || {
+        let hypotheses = Hypotheses::new(&maps, &weights)?;
         Ok::<_, mean_information::Error>((hypotheses.expected_map()?, hypotheses.mean_of_mean_information()))
-    });
+    })?;
     let (map, mean) = computed.map_err(refused)?;
     let shape = [map.grid().height(), map.grid().width()];
     let probabilities = numpy::PyArray1::from_slice(py, map.grid().cells()).reshape(shape)?;

@@ -3,6 +3,7 @@
 use crate::errors::{in_python, of_file};
 use crate::interruptible::run;
 use crate::limit::choice;
+use crate::long_work::watched;
 use crate::tally::PyTally;
 use crate::trajectory::{PyTrajectory, numbers};
 use mean_information_files::scans::{Bearings, Frame, RangeScan, ScanLog, ScanOptions, TimeField};
@@ -242,13 +243,11 @@ pub(crate) fn read_map(
         }
     };
     let options = Options { semantics, mode, unknown, encoding, resolution, max_cells };
-    let map = run(py, |source| {
-        if bags::is_bag(&path) {
-            mean_information_files::read_map(&path, &options)
-        } else {
-            read_map_from(source, &path, &options)
-        }
-    })?;
+    let map = if bags::is_bag(&path) {
+        watched(py, move || mean_information_files::read_map(&path, &options))?.map_err(of_file)?
+    } else {
+        run(py, |source| read_map_from(source, &path, &options))?
+    };
     as_python(py, map)
 }
 
@@ -261,10 +260,13 @@ fn as_python(py: Python<'_>, map: Map) -> PyResult<PyMap> {
         Cells::Probability32(_) | Cells::Probability64(_) => "probability",
         Cells::LogOdds32(_) | Cells::LogOdds64(_) => "log-odds",
     };
-    let (array, origin, tally) = with_grid!(&cells, grid => {
-        let tally = PyTally::from(py.detach(|| grid.tally()));
+    let (cells, tally) = watched(py, move || {
+        let tally = with_grid!(&cells, grid => PyTally::from(grid.tally()));
+        (cells, tally)
+    })?;
+    let (array, origin) = with_grid!(&cells, grid => {
         let array = PyArray1::from_slice(py, grid.cells()).reshape([grid.height(), grid.width()])?;
-        (array.into_any().unbind(), grid.geometry().origin().into(), tally)
+        (array.into_any().unbind(), grid.geometry().origin().into())
     });
     let (tally, warnings) = (Py::new(py, tally)?, words(&warnings));
     Ok(PyMap { cells: array, encoding, resolution, origin, tally, warnings })

@@ -13,6 +13,7 @@
 //! | `sensors` | inverse sensor models |
 //! | `scan_map` | maps from range scans |
 //! | `interruptible` | a disk whose files Ctrl-C closes |
+//! | `trajectory` | trajectories, read |
 //! | `files` | files of the field, read |
 //! | `ufuncs` | functions of a cell as NumPy's ufuncs |
 //! | `command` | the command `meaninfo`, and the operations of ports |
@@ -60,7 +61,7 @@ mod _native {
 
     #[pymodule_export]
     use super::tally::{PyTally, mean_of, tally_of};
-    #[pymodule_export]
+
     #[pymodule_export]
     use super::trajectory::PyTrajectory;
 

@@ -45,15 +45,32 @@ pub(crate) struct PyScanMap {
     sensor: Py<PyAny>,
 }
 
+/// What is done with a scan.
+#[derive(Clone, Copy)]
+enum Change {
+    Insert,
+    Remove,
+}
+
+/// A scan as Python hands it over: pose, bearings, ranges, greatest range.
+type Given<'a, 'py> = ((f64, f64, f64), &'a Bound<'py, PyAny>, &'a Bound<'py, PyAny>, f64);
+
 impl PyScanMap {
-    /// Applies `change` to the map with a scan and the model of its readings.
-    fn change(&mut self, py: Python<'_>, scan: &Scan<f64>, remove: bool) -> PyResult<()> {
+    /// Changes the map by a scan and the model of its readings; a scan without beams says nothing.
+    fn change(&mut self, py: Python<'_>, change: Change, given: Given<'_, '_>) -> PyResult<()> {
+        let (pose, bearings, ranges, max_range) = given;
+        let Some(scan) = scan(pose, &floats(bearings)?, &floats(ranges)?, max_range)? else {
+            return Ok(());
+        };
         let sensor = Sensor::new(self.sensor.bind(py))?;
         let map = &mut self.map;
         /// Inserts or removes.
         macro_rules! apply {
             ($model:expr) => {
-                if remove { map.remove(scan, $model) } else { map.insert(scan, $model) }
+                match change {
+                    Change::Insert => map.insert(&scan, $model),
+                    Change::Remove => map.remove(&scan, $model),
+                }
             };
         }
         match sensor {
@@ -135,10 +152,7 @@ impl PyScanMap {
         ranges: &Bound<'_, PyAny>,
         max_range: f64,
     ) -> PyResult<()> {
-        match scan(pose, &floats(bearings)?, &floats(ranges)?, max_range)? {
-            Some(scan) => self.change(py, &scan, false),
-            None => Ok(()),
-        }
+        self.change(py, Change::Insert, (pose, bearings, ranges, max_range))
     }
 
     /// Remove a scan that was inserted: the exact inverse of `insert` with the same arguments.
@@ -161,10 +175,7 @@ impl PyScanMap {
         ranges: &Bound<'_, PyAny>,
         max_range: f64,
     ) -> PyResult<()> {
-        match scan(pose, &floats(bearings)?, &floats(ranges)?, max_range)? {
-            Some(scan) => self.change(py, &scan, true),
-            None => Ok(()),
-        }
+        self.change(py, Change::Remove, (pose, bearings, ranges, max_range))
     }
 
     /// Measure the cells of the rectangle that scans have crossed.

@@ -7,7 +7,7 @@ import mean_information as mi
 import numpy as np
 import pytest
 
-PUBLIC = {name: getattr(mi, name) for name in mi.__all__ if name not in ("Encoding", "__version__")}
+PUBLIC = {name: getattr(mi, name) for name in mi.__all__ if name != "Encoding"}
 METHODS = {
     f"{name}.{method}": getattr(kind, method)
     for name, kind in PUBLIC.items()

@@ -156,3 +156,13 @@ def test_dask_with_a_worker_that_is_killed(fleet):
             time.sleep(0.01)
         os.kill(next(iter(pids.values())), signal.SIGKILL)
         assert result.result(timeout=300) == whole
+
+
+def test_spark(fleet, monkeypatch, capsys):
+    pytest.importorskip("pyspark")
+    folder, whole = fleet
+    # Its workers are the interpreter of the test.
+    monkeypatch.setenv("PYSPARK_PYTHON", sys.executable)
+    run("fleet_spark.py", folder, monkeypatch=monkeypatch)
+    printed = dict(line.split("\t") for line in capsys.readouterr().out.splitlines())
+    assert printed == {name: str(tally.mean_information) for name, tally in whole.items()}

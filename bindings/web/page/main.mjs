@@ -4,6 +4,7 @@ import { Client } from "./client.mjs";
 import { Maps } from "./maps.mjs";
 import { Room } from "./room.mjs";
 import { element } from "./parts.mjs";
+import { unzipped } from "./unzipped.mjs";
 
 const tabs = [...document.querySelectorAll('[role="tab"]')];
 
@@ -31,3 +32,7 @@ for (const tab of tabs) {
     next.focus();
   });
 }
+
+element("licences").addEventListener("toggle", async () => {
+  element("licences-text").textContent ||= await unzipped(element("third-party").textContent).text();
+});

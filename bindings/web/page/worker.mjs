@@ -1,5 +1,6 @@
 // The worker: it holds the module, reads files piece by piece, and answers the page's requests one after the other.
 import { Stopped, load } from "./module.mjs";
+import { unzipped } from "./unzipped.mjs";
 
 let ask = null;
 let files = [];
@@ -20,12 +21,6 @@ function readPiece(file, at, length) {
 
 const listed = () => ({ ask: "files", files: files.map(({ name, size }) => ({ name, length: size })) });
 
-const unzipped = async (base64) => {
-  const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
-  return new Response(stream).arrayBuffer();
-};
-
 // One at a time, in order.
 let queue = Promise.resolve();
 onmessage = ({ data }) => {
@@ -35,7 +30,7 @@ onmessage = ({ data }) => {
 async function serve({ id, request, wasm: base64 }) {
   try {
     if (base64) {
-      ask = await load(await unzipped(base64), readPiece);
+      ask = await load(await unzipped(base64).arrayBuffer(), readPiece);
       postMessage({ id, bytes: new Uint8Array() });
       return;
     }

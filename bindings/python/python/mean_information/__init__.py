@@ -11,57 +11,33 @@
 * `read_map`, `read_scans` and `read_trajectory` read the files of the field; `meaninfo` is the command.
 """
 
-from ._arrays import Encoding
-from ._expected import expected_map
-from ._measures import mean_information, tally
+# "As" says to type checkers that a name is public.
+from ._arrays import Encoding as Encoding
+from ._expected import expected_map as expected_map
+from ._measures import mean_information as mean_information
+from ._measures import tally as tally
 from ._native import (
-    ExpectedMap,
-    GaussianSensor,
-    Limit,
-    Map,
-    RangeScan,
-    ScanLog,
-    ScanMap,
-    SteppedSensor,
-    Tally,
-    Trajectory,
-    __version__,
-    entropy,
-    entropy_from_log_odds,
-    information,
-    information_from_log_odds,
-    limit,
-    log_odds_from_occupancy,
-    occupancy_from_log_odds,
-    read_map,
-    read_scans,
-    read_trajectory,
+    ExpectedMap as ExpectedMap,
+    GaussianSensor as GaussianSensor,
+    Limit as Limit,
+    Map as Map,
+    RangeScan as RangeScan,
+    ScanLog as ScanLog,
+    ScanMap as ScanMap,
+    SteppedSensor as SteppedSensor,
+    Tally as Tally,
+    Trajectory as Trajectory,
+    entropy as entropy,
+    entropy_from_log_odds as entropy_from_log_odds,
+    information as information,
+    information_from_log_odds as information_from_log_odds,
+    limit as limit,
+    log_odds_from_occupancy as log_odds_from_occupancy,
+    occupancy_from_log_odds as occupancy_from_log_odds,
+    read_map as read_map,
+    read_scans as read_scans,
+    read_trajectory as read_trajectory,
 )
+from ._native import __version__ as __version__
 
-__all__ = [
-    "Encoding",
-    "ExpectedMap",
-    "GaussianSensor",
-    "Limit",
-    "Map",
-    "RangeScan",
-    "ScanLog",
-    "ScanMap",
-    "SteppedSensor",
-    "Tally",
-    "Trajectory",
-    "__version__",
-    "entropy",
-    "entropy_from_log_odds",
-    "expected_map",
-    "information",
-    "information_from_log_odds",
-    "limit",
-    "log_odds_from_occupancy",
-    "mean_information",
-    "occupancy_from_log_odds",
-    "read_map",
-    "read_scans",
-    "read_trajectory",
-    "tally",
-]
+__all__ = [name for name in dir() if not name.startswith("_")]

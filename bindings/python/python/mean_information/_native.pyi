@@ -9,36 +9,6 @@ import numpy.typing as npt
 
 from ._sensors import Sensor
 
-__all__ = [
-    "ExpectedMap",
-    "GaussianSensor",
-    "Limit",
-    "Map",
-    "RangeScan",
-    "ScanLog",
-    "ScanMap",
-    "SteppedSensor",
-    "Tally",
-    "Trajectory",
-    "__version__",
-    "arguments_of",
-    "command",
-    "entropy",
-    "entropy_from_log_odds",
-    "expected_map",
-    "information",
-    "information_from_log_odds",
-    "limit",
-    "log_odds_from_occupancy",
-    "mean_information",
-    "occupancy_from_log_odds",
-    "operation_names",
-    "read_map",
-    "read_scans",
-    "read_trajectory",
-    "run_operation",
-    "tally",
-]
 __version__: str
 
 entropy: np.ufunc

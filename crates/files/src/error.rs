@@ -303,7 +303,7 @@ impl Error {
 }
 
 /// Returns a number in few characters: a power of ten stands in the place of hundreds of zeros.
-fn short(value: f64) -> String {
+pub(crate) fn short(value: f64) -> String {
     let size = value.abs();
     if size == 0.0 || !size.is_finite() || (1e-5..1e16).contains(&size) {
         value.to_string()

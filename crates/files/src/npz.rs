@@ -1,7 +1,7 @@
 //! NumPy's `.npz`: a zip archive of `.npy` files, by the crate `zip`, which also knows archives above 4 GiB.
 
 use crate::error::{Error, ErrorKind};
-use std::io::{Read, Seek};
+use std::io::{self, Read, Seek};
 use std::path::Path;
 use zip::ZipArchive;
 use zip::read::ZipFile;
@@ -16,11 +16,12 @@ const MOST_NAMES: usize = 12;
 pub(crate) fn split(path: &Path) -> Option<(&Path, Option<&str>)> {
     let text = path.to_str()?;
     let is_archive = |file: &str| file.to_ascii_lowercase().ends_with(".npz");
-    match text.rsplit_once(':') {
-        _ if is_archive(text) => Some((path, None)),
-        Some((file, key)) if is_archive(file) => Some((Path::new(file), Some(key))),
-        _ => None,
+    if is_archive(text) {
+        return Some((path, None));
     }
+    // A key may have colons, too.
+    let mut colons = text.match_indices(':').map(|(at, _)| (&text[..at], &text[at + 1..]));
+    colons.find(|(file, _)| is_archive(file)).map(|(file, key)| (Path::new(file), Some(key)))
 }
 
 /// Opens an array of an archive: that of `key`, or the only one.
@@ -29,10 +30,18 @@ pub(crate) fn open<'a, R: Read + Seek>(
     key: Option<&str>,
 ) -> Result<ZipFile<'a, R>, Error> {
     let names: Vec<String> =
-        archive.file_names().map(|name| name.strip_suffix(MEMBER).unwrap_or(name).to_owned()).collect();
+        archive.file_names().filter_map(|name| name.strip_suffix(MEMBER)).map(str::to_owned).collect();
+    // NumPy takes a key with the ending, too.
+    let key = key.map(|key| {
+        key.strip_suffix(MEMBER).filter(|key| names.iter().any(|name| name == key)).unwrap_or(key)
+    });
     let name = match (key, &names[..]) {
         (Some(key), _) if names.iter().any(|name| name == key) => key,
         (None, [name]) => name,
+        (None, []) => {
+            let refused = Error::new(ErrorKind::Unsupported, "holds no array");
+            return Err(refused.allowing("; needed is ", "one that np.savez wrote"));
+        }
         (Some(key), _) => {
             let refused = Error::new(ErrorKind::NotFound, format!("has no array {key:?}")).with_value(key);
             return Err(refused.allowing("; it has ", listed(&names)));
@@ -42,9 +51,7 @@ pub(crate) fn open<'a, R: Read + Seek>(
             return Err(Error::new(ErrorKind::Unsupported, message).allowing("; it has ", listed(&names)));
         }
     };
-    let whole = format!("{name}{MEMBER}");
-    let whole = if archive.index_for_name(&whole).is_some() { whole } else { name.to_owned() };
-    archive.by_name(&whole).map_err(refused)
+    archive.by_name(&format!("{name}{MEMBER}")).map_err(refused)
 }
 
 /// Reads the table of an archive.
@@ -61,6 +68,18 @@ fn listed(names: &[String]) -> String {
     }
 }
 
+/// Reads to the end of an array of which all cells are read: there its checksum is compared.
+///
+/// # Errors
+/// An [`Error`] of kind [`ErrorKind::Format`] if it is another.
+pub(crate) fn check(file: &mut impl Read) -> Result<(), Error> {
+    let end = io::copy(&mut file.take(1), &mut io::sink());
+    end.map(|_| ()).map_err(|error| {
+        let message = "is damaged: the checksum of the array is another; copy or save it again";
+        Error::new(ErrorKind::Format, message).caused_by(error)
+    })
+}
+
 /// Names what the archive's reader refuses.
 fn refused(error: ZipError) -> Error {
     match error {
@@ -68,6 +87,13 @@ fn refused(error: ZipError) -> Error {
         ZipError::UnsupportedArchive(what) => {
             Error::new(ErrorKind::Unsupported, format!("is an .npz file that is not read: {what}"))
         }
-        error => Error::new(ErrorKind::Format, format!("is no .npz file: {error}")).caused_by(error),
+        error @ ZipError::CompressionMethodNotSupported(_) => {
+            Error::new(ErrorKind::Unsupported, format!("is an .npz file that is not read: {error}"))
+                .followed_by("; np.savez_compressed writes one that is")
+                .caused_by(error)
+        }
+        error => {
+            Error::new(ErrorKind::Format, format!("is no .npz file, or cut short: {error}")).caused_by(error)
+        }
     }
 }

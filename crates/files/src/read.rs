@@ -131,7 +131,9 @@ fn with_array<T>(
     let mut archive = npz::archive(input)?;
     let mut file = npz::open(&mut archive, key)?;
     let length = file.size();
-    read(&mut Array { input: &mut file, length, compressed: true })
+    let result = read(&mut Array { input: &mut file, length, compressed: true })?;
+    npz::check(&mut file)?;
+    Ok(result)
 }
 
 /// Reads a map whose cells go where `target` puts them.
@@ -186,8 +188,10 @@ const ENDINGS: &str =
     ".yaml, .yml, .npy, .npz, .gridmap, .gridmap.gz, .ot, .bt, .mcap, .db3, .bag and .pbstream";
 
 /// The endings of images.
-const IMAGES: [&str; 12] =
-    [".pgm", ".png", ".bmp", ".ppm", ".pbm", ".pnm", ".jpg", ".jpeg", ".tif", ".tiff", ".gif", ".webp"];
+const IMAGES: [&str; 14] = [
+    ".pgm", ".png", ".bmp", ".ppm", ".pbm", ".pnm", ".pam", ".jpg", ".jpeg", ".tif", ".tiff", ".gif",
+    ".webp", ".tga",
+];
 
 /// Reads the submaps of Cartographer's saved state at `path` on the disk: as [`read_submaps_from`].
 ///

@@ -88,12 +88,14 @@ pub enum Warning {
     },
     /// Something follows the first document of the yaml file, and is not read.
     MoreDocuments,
-    /// Comments of the yaml file are not UTF-8.
+    /// Comments of the yaml file, or values that are not read, are not UTF-8.
     CommentsNotUtf8,
-    /// A tab of the yaml file is read as a space.
+    /// Tabs of the yaml file are read as spaces.
     TabAsSpace {
-        /// The line, from 1.
+        /// The first line with one, from 1.
         line: u64,
+        /// The number of such lines.
+        count: u64,
     },
     /// Something follows the image in its file, and is passed over.
     BytesAfterImage,
@@ -120,8 +122,18 @@ pub enum Warning {
         /// The number of cells.
         count: u64,
     },
-    /// nav2's loader may take the levels of an image of 16 bits for others by 1 of 255.
+    /// nav2's loader may take the levels of an image with colours or alpha of 16 bits for others by 1 of 255.
     SixteenBits,
+    /// The loader takes the levels of an image of this kind for others.
+    LevelsDiffer {
+        /// The kind, as "a BMP of 16 bits".
+        of: &'static str,
+    },
+    /// ROS 1's loader refuses an image of this kind.
+    RefusedByRos1 {
+        /// The kind, as "PAM".
+        of: &'static str,
+    },
     /// nav2's loader may take the levels of a PGM of this maximum value for others.
     PgmMaximum {
         /// The maximum value of its header.

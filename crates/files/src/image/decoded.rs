@@ -4,8 +4,9 @@
 //! times what it holds is refused before memory is taken. Of a file with several images the first is read, as by the
 //! loaders.
 
-use super::ending;
-use super::layout::{Channels, Colours, Layout, Rest};
+use super::bmp::Bmp;
+use super::ending::{self, read_at};
+use super::layout::{Channels, Colours, Layout, Rest, levels};
 use super::palette::Palette;
 use crate::error::{Error, ErrorKind};
 use crate::size::{CHUNK, Size};
@@ -26,9 +27,21 @@ pub(crate) struct Decoded {
     pub(super) format: ImageFormat,
     /// True if the grey levels are the indices of a palette.
     pub(super) indices: bool,
-    /// True if samples of 16 bits were cut to their high byte.
-    pub(super) cut: bool,
+    pub(super) quirk: Option<Quirk>,
     rest: Rest,
+}
+
+/// What a loader takes in another way, or refuses, of an image that is read here.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Quirk {
+    /// Colours or alpha of 16 bits in a PNG, cut to their high bytes before nav2's grey is taken.
+    DeepColours,
+    /// A BMP of 16 bits a pixel: each loader scales its 5 or 6 bits in its own way.
+    FewBits,
+    /// A JPEG of four inks, which only nav2 since pull request 5071 turns into colours.
+    Inks,
+    /// An image that SDL_image does not read, in words.
+    NotInSdl(&'static str),
 }
 
 impl Decoded {
@@ -44,7 +57,7 @@ impl Decoded {
         let limit = Limit { cells: max_cells, length };
         // SDL hands the indices of a palette themselves on, and ROS 1 takes them for greys.
         let palette = if colours == Colours::Sdl { Palette::find(&mut input, format)? } else { None };
-        let indices = palette.as_ref().is_some_and(|palette| !palette.is_grey_scale());
+        let mut indices = palette.as_ref().is_some_and(|palette| !palette.is_grey_scale());
         input.rewind()?;
         let mut pixels = match (format, palette) {
             (_, Some(palette)) => {
@@ -56,10 +69,15 @@ impl Decoded {
             }
             (ImageFormat::Pnm, None) => {
                 let decoder = PnmDecoder::new(&mut input).map_err(refused)?;
-                // A bitmap's are expanded, others' are as the file has them.
-                let largest = decoder.header().as_bitmap().map_or(decoder.header().maximal_sample(), |_| 255);
+                let bitmap = decoder.header().as_bitmap().is_some();
+                let largest = if bitmap { 255 } else { decoder.header().maximal_sample() };
                 let mut pixels = decode(decoder, limit)?;
-                pixels.scale(largest);
+                pixels.scale(largest, colours);
+                if bitmap && colours == Colours::Sdl {
+                    // To SDL a bitmap has a palette: white, then black.
+                    pixels.bytes.iter_mut().for_each(|sample| *sample = u8::from(*sample == 0));
+                    indices = true;
+                }
                 pixels
             }
             _ => {
@@ -71,9 +89,13 @@ impl Decoded {
         if format == ImageFormat::Gif {
             pixels.drop_opaque_alpha();
         }
-        // SDL_image makes every TIFF one with alpha, which ROS 1 averages.
-        if format == ImageFormat::Tiff && colours == Colours::Sdl {
-            pixels.make_alpha();
+        let head = if format == ImageFormat::Bmp { Bmp::read(&mut input)? } else { None };
+        if let Some(head) = &head {
+            let has_alpha = if colours == Colours::Sdl { head.bits == 32 } else { head.has_plain_alpha() };
+            if has_alpha && pixels.channels == Channels::Rgb {
+                let alpha = head.fourth_bytes(&mut input)?;
+                pixels.set_alpha(&alpha);
+            }
         }
         let goes_on = match format {
             ImageFormat::Pnm => goes_on(&mut input, u8::is_ascii_whitespace)?,
@@ -86,20 +108,18 @@ impl Decoded {
                 None => false,
             },
         };
+        let quirk = quirk(&mut input, format, pixels.deep, head.as_ref())?;
         let rest = if goes_on { Rest::More } else { Rest::Nothing };
+        let white = if pixels.deep { u16::MAX } else { 255 };
+        if pixels.deep {
+            pixels.bring_down(colours);
+        }
+        if colours == Colours::Sdl {
+            pixels.lay_out_as_sdl(format);
+        }
         let Pixels { size, channels, deep, bytes } = pixels;
-        let cut = deep && colours != Colours::Meant;
-        let bytes = match (deep, cut) {
-            (false, _) => bytes,
-            (true, true) => bytes.as_chunks().0.iter().map(|&s| (u16::from_ne_bytes(s) >> 8) as u8).collect(),
-            (true, false) => {
-                let samples = bytes.as_chunks().0.iter();
-                samples.flat_map(|&sample| u16::from_ne_bytes(sample).to_be_bytes()).collect()
-            }
-        };
-        let max = if deep && !cut { 65535 } else { 255 };
-        let layout = Layout { size, channels, max, white: max };
-        Ok(Self { bytes, layout, format, indices, cut, rest })
+        let layout = Layout { size, channels, max: if deep { white } else { 255 }, white };
+        Ok(Self { bytes, layout, format, indices, quirk, rest })
     }
 
     /// Returns the layout of the pieces.
@@ -122,6 +142,25 @@ struct Limit {
     length: u64,
 }
 
+/// Finds what a loader takes in another way, or refuses.
+fn quirk(
+    input: &mut (impl BufRead + Seek),
+    format: ImageFormat,
+    deep: bool,
+    bmp: Option<&Bmp>,
+) -> io::Result<Option<Quirk>> {
+    Ok(match format {
+        ImageFormat::Bmp if bmp.is_some_and(|head| head.bits == 16) => Some(Quirk::FewBits),
+        ImageFormat::Jpeg if ending::components_of_jpeg(input)? == Some(4) => Some(Quirk::Inks),
+        ImageFormat::Pnm if read_at(input, 0, 2)? == b"P7" => Some(Quirk::NotInSdl("PAM")),
+        ImageFormat::Pnm if deep => Some(Quirk::NotInSdl("a PPM of 16 bits")),
+        ImageFormat::WebP if read_at(input, 12, 4)? != b"VP8 " => {
+            Some(Quirk::NotInSdl("WebP but the simple lossy kind"))
+        }
+        _ => None,
+    })
+}
+
 /// Pixels as the decoder gives them: samples of 16 bits in the machine's own order.
 struct Pixels {
     size: Size,
@@ -131,18 +170,66 @@ struct Pixels {
 }
 
 impl Pixels {
-    /// Brings samples up to `largest` to the whole range, rounded down as by SDL_image.
-    fn scale(&mut self, largest: u32) {
-        let largest = largest.max(1);
-        if self.deep && largest != 65535 {
-            for sample in self.bytes.as_chunks_mut().0 {
-                let value = u32::from(u16::from_ne_bytes(*sample)).min(largest);
-                *sample = ((u64::from(value) * 65535 / u64::from(largest)) as u16).to_ne_bytes();
+    /// Brings samples up to `largest`, which the decoder scaled and rounded, to the whole range as the loader's library does:
+    /// SDL_image rounds down to 8 bits, GraphicsMagick has 16.
+    fn scale(&mut self, largest: u32, colours: Colours) {
+        let white = if self.deep { 65535 } else { 255 };
+        if largest == white || largest == 0 {
+            return;
+        }
+        let own =
+            |sample: u32| (u64::from(sample) * u64::from(largest) + u64::from(white / 2)) / u64::from(white);
+        let samples: Vec<u64> = if self.deep {
+            self.bytes.as_chunks().0.iter().map(|&sample| own(u16::from_ne_bytes(sample).into())).collect()
+        } else {
+            self.bytes.iter().map(|&sample| own(sample.into())).collect()
+        };
+        let largest = u64::from(largest);
+        if colours == Colours::Sdl && !self.deep {
+            self.bytes = samples.iter().map(|sample| (sample * 255 / largest) as u8).collect();
+        } else {
+            let deep = samples.iter().map(|sample| ((sample * 65535 + largest / 2) / largest) as u16);
+            self.bytes = deep.flat_map(u16::to_ne_bytes).collect();
+            self.deep = true;
+        }
+    }
+
+    /// Brings samples of 16 bits to the order, high byte first, or to the 8 bits, that the loader's library has.
+    fn bring_down(&mut self, colours: Colours) {
+        let high_first = self.bytes.as_chunks().0.iter().map(|&s| u16::from_ne_bytes(s).to_be_bytes());
+        self.deep = matches!(colours, Colours::Meant | Colours::Magick);
+        self.bytes = match colours {
+            Colours::Meant | Colours::Magick => high_first.flatten().collect(),
+            Colours::Sdl => high_first.map(|[high, _]| high).collect(),
+            Colours::MagickLevels => {
+                let pixels: Vec<u8> = high_first.flatten().collect();
+                let mut own = Vec::new();
+                self.channels = levels(self.channels, &pixels, &mut own);
+                own
             }
-        } else if !self.deep && largest != 255 {
-            for sample in &mut self.bytes {
-                *sample = (u32::from(*sample).min(largest) * 255 / largest) as u8;
+        };
+    }
+
+    /// Lays out samples of 8 bits as on SDL's surfaces, of which ROS 1 averages the bytes and takes the last for alpha.
+    fn lay_out_as_sdl(&mut self, format: ImageFormat) {
+        match (format, self.channels) {
+            // Blue comes first.
+            (ImageFormat::Bmp | ImageFormat::Tga, Channels::Rgb) => {
+                self.bytes.as_chunks_mut().0.iter_mut().for_each(|pixel: &mut [u8; 3]| pixel.reverse());
             }
+            // Every TIFF is one with alpha, which its colours are multiplied by.
+            (ImageFormat::Tiff, Channels::Grey | Channels::Rgb) => {
+                let opaque = vec![u8::MAX; self.bytes.len() / self.channels.count()];
+                self.set_alpha(&opaque);
+            }
+            (ImageFormat::Tiff, Channels::Rgba) => {
+                for [colours @ .., alpha] in self.bytes.as_chunks_mut::<4>().0 {
+                    for sample in colours {
+                        *sample = ((u32::from(*sample) * u32::from(*alpha) + 127) / 255) as u8;
+                    }
+                }
+            }
+            _ => {}
         }
     }
 
@@ -161,17 +248,11 @@ impl Pixels {
         self.channels = Channels::Grey;
     }
 
-    /// Adds an opaque alpha where there is none.
-    fn make_alpha(&mut self) {
-        let channels = match self.channels {
-            Channels::Grey => Channels::GreyAlpha,
-            Channels::Rgb => Channels::Rgba,
-            _ => return,
-        };
-        let bytes = self.channels.count() * if self.deep { 2 } else { 1 };
-        let opaque = vec![0xff; if self.deep { 2 } else { 1 }];
-        self.bytes = self.bytes.chunks_exact(bytes).flat_map(|pixel| [pixel, &opaque].concat()).collect();
-        self.channels = channels;
+    /// Adds an alpha for each pixel of samples of 8 bits, where there is none.
+    fn set_alpha(&mut self, alpha: &[u8]) {
+        let pixels = self.bytes.chunks_exact(self.channels.count()).zip(alpha);
+        self.bytes = pixels.flat_map(|(colours, alpha)| colours.iter().chain([alpha])).copied().collect();
+        self.channels = if self.channels == Channels::Grey { Channels::GreyAlpha } else { Channels::Rgba };
     }
 }
 

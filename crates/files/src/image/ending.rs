@@ -3,13 +3,14 @@
 //! TIFF has no end, as its parts may stand in any order and anything may lie between them; and the end of TGA is a footer,
 //! with areas of the writer's own before it.
 
+use super::bmp::Bmp;
 use image::ImageFormat;
 use std::io::{self, BufRead, Read, Seek, SeekFrom};
 
 /// Returns the place after the last byte of the image; none where the format or a broken file does not tell.
 pub(super) fn end(input: &mut (impl BufRead + Seek), format: ImageFormat) -> io::Result<Option<u64>> {
     match format {
-        ImageFormat::Bmp => Ok(end_of_bmp(&read_at(input, 0, 54)?)),
+        ImageFormat::Bmp => Ok(Bmp::read(input)?.and_then(|head| head.end())),
         ImageFormat::Gif => Ok(first_frame(input)?.map_or(Ok(None), |frame| end_of_gif(input, frame.end))?),
         ImageFormat::Jpeg => end_of_jpeg(input),
         ImageFormat::WebP => {
@@ -27,23 +28,6 @@ pub(super) fn read_at(input: &mut (impl Read + Seek), place: u64, length: usize)
     let mut bytes = Vec::new();
     input.take(length as u64).read_to_end(&mut bytes)?;
     Ok(bytes)
-}
-
-/// Returns the end of the pixels of a BMP: of rows of whole words, or as many bytes as its header says if they are compressed.
-fn end_of_bmp(head: &[u8]) -> Option<u64> {
-    let number = |at: usize| Some(u32::from_le_bytes(*head.get(at..)?.first_chunk()?));
-    let short = |at: usize| Some(u64::from(u16::from_le_bytes(*head.get(at..)?.first_chunk()?)));
-    let start = u64::from(number(10)?);
-    let (width, height, bits, compression) = match number(14)? {
-        12 => (short(18)?, short(20)?, short(24)?, 0),
-        // A negative height: the upper row first.
-        _ => (number(18)?.into(), (number(22)? as i32).unsigned_abs().into(), short(28)?, number(30)?),
-    };
-    match compression {
-        // RLE8 and RLE4.
-        1 | 2 => Some(number(34)?.into()).filter(|&length: &u64| length > 0).map(|length| start + length),
-        _ => (bits * width).div_ceil(32).checked_mul(4 * height)?.checked_add(start),
-    }
 }
 
 /// The first image of a GIF.
@@ -130,6 +114,23 @@ fn end_of_jpeg(input: &mut (impl BufRead + Seek)) -> io::Result<Option<u64>> {
             }
             (_, byte) => marked = byte == 0xff,
         }
+    }
+    Ok(None)
+}
+
+/// Returns the number of components of a JPEG, from the segment that says its size.
+pub(super) fn components_of_jpeg(input: &mut (impl BufRead + Seek)) -> io::Result<Option<u8>> {
+    let mut place = 2;
+    while let [0xff, mark, high, low, rest @ ..] = &read_at(input, place, 10)?[..] {
+        match mark {
+            // Marks of tables and of an arithmetic coder lie among those of a frame.
+            0xc4 | 0xc8 | 0xcc => {}
+            0xc0..=0xcf => return Ok(rest.get(5).copied()),
+            // The pixels.
+            0xda => break,
+            _ => {}
+        }
+        place += 2 + u64::from(u16::from_be_bytes([*high, *low])).max(2);
     }
     Ok(None)
 }

@@ -29,6 +29,11 @@ impl Channels {
         }
     }
 
+    /// Tells whether the first sample is a grey.
+    pub(crate) fn is_grey(self) -> bool {
+        matches!(self, Self::Grey | Self::GreyAlpha | Self::GreyKeyed)
+    }
+
     /// Tells whether the last sample is alpha.
     pub(crate) fn alpha(self) -> bool {
         matches!(self, Self::GreyAlpha | Self::GreyKeyed | Self::Rgba)
@@ -44,7 +49,7 @@ pub(crate) struct Layout {
     pub(crate) channels: Channels,
     /// The sample that means white, or opaque. Samples above 255 take two bytes, the high one first.
     pub(crate) max: u16,
-    /// The white of the file itself, of which `max` is a multiple.
+    /// The white of the file itself: `max` is a multiple of it, or less where samples of 16 bits are brought to 8.
     pub(crate) white: u16,
 }
 
@@ -81,13 +86,43 @@ impl Layout {
     }
 }
 
-/// The treatment of a PNG's colours.
+/// The weights by which GraphicsMagick sums a colour's red, green and blue into its grey, in thousandths.
+pub(crate) const GREY_WEIGHTS: [u32; 4] = [299, 587, 114, 0];
+
+/// Returns the level of 255 that GraphicsMagick gives for a weighted sum of samples of 16 bits: the grey rounded to 16 bits,
+/// and that rounded down to 8.
+pub(crate) fn level(sum: u32) -> u8 {
+    ((sum + 500) / 1000 / 257) as u8
+}
+
+/// Turns pixels of samples of 16 bits, the high byte first, into levels of 255, each with an alpha of 0 or 255 where there is
+/// alpha; returns their channels.
+pub(super) fn levels(channels: Channels, pixels: &[u8], levels: &mut Vec<u8>) -> Channels {
+    levels.clear();
+    for pixel in pixels.chunks_exact(2 * channels.count()) {
+        let samples: &[[u8; 2]] = pixel.as_chunks().0;
+        let weights = if channels.is_grey() { [1000, 0, 0, 0] } else { GREY_WEIGHTS };
+        let weighed = samples
+            .iter()
+            .zip(weights)
+            .map(|(&sample, weight)| weight * u32::from(u16::from_be_bytes(sample)));
+        levels.push(level(weighed.sum()));
+        if channels.alpha() {
+            levels.push(if samples.last() == Some(&[u8::MAX; 2]) { u8::MAX } else { 0 });
+        }
+    }
+    if channels.alpha() { Channels::GreyAlpha } else { Channels::Grey }
+}
+
+/// The treatment of an image's colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Colours {
     /// As they are meant: palettes are looked up, transparent colours become alpha.
     Meant,
-    /// As they are meant, 16-bit samples cut to their high byte.
-    MeantIn8Bits,
+    /// As GraphicsMagick reads them.
+    Magick,
+    /// As GraphicsMagick gives them to nav2: pixels of 16-bit samples as the [level] of their grey.
+    MagickLevels,
     /// As SDL_image gives them to ROS 1: 8 bits per sample; palettes without real alpha stay indices.
     Sdl,
 }

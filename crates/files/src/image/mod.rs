@@ -1,5 +1,6 @@
 //! Map images, told apart by their first bytes: PGM and PNG read from the top a piece at a time, others decoded whole.
 
+mod bmp;
 mod decoded;
 mod ending;
 mod format;
@@ -9,5 +10,6 @@ mod pgm;
 mod png;
 mod reader;
 
-pub(crate) use layout::{Channels, Colours, Layout, MaxPixels, Rest};
+pub(crate) use decoded::Quirk;
+pub(crate) use layout::{Channels, Colours, GREY_WEIGHTS, Layout, MaxPixels, Rest, level};
 pub(crate) use reader::Image;

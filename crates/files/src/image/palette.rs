@@ -1,6 +1,7 @@
-//! Palettes of BMP and GIF, and images in which every entry is the grey of its own number: the indices that SDL hands on,
+//! Palettes of BMP, GIF and TGA, and images in which every entry is the grey of its own number: the indices that SDL hands on,
 //! which ROS 1 takes for greys.
 
+use super::bmp::Bmp;
 use super::ending::{first_frame, read_at};
 use image::ImageFormat;
 use std::io::{self, BufRead, Read, Seek, SeekFrom};
@@ -17,7 +18,8 @@ impl Palette {
     /// Finds the palette of an image, and returns to its beginning; none if it has none that is whole.
     pub(super) fn find(input: &mut (impl BufRead + Seek), format: ImageFormat) -> io::Result<Option<Self>> {
         let place = match format {
-            ImageFormat::Bmp => of_bmp(&read_at(input, 0, 54)?),
+            ImageFormat::Bmp => Bmp::read(input)?.and_then(|head| head.palette()),
+            ImageFormat::Tga => of_tga(&read_at(input, 0, 8)?),
             ImageFormat::Gif => {
                 first_frame(input)?.and_then(|frame| frame.palette).map(|(start, n)| (start, n, 3))
             }
@@ -44,16 +46,10 @@ impl Palette {
     }
 }
 
-/// Returns the start of a BMP's palette, its entries and the bytes of each.
-fn of_bmp(head: &[u8]) -> Option<(u64, usize, usize)> {
-    let number = |at: usize| Some(u32::from_le_bytes(*head.get(at..)?.first_chunk()?));
-    let header = number(14)?;
-    // Headers of 12 bytes have short numbers, and entries of three bytes.
-    let (bits, used, entry) =
-        if header == 12 { (number(24)? >> 16, 0, 3) } else { (number(28)? & 0xffff, number(46)?, 4) };
-    let most = 1 << if bits <= 8 { bits } else { return None };
-    let entries = if used == 0 { most } else { used.min(most) };
-    Some((14 + u64::from(header), entries as usize, entry))
+/// Returns the start of a TGA's palette, its entries and the bytes of each, if they are whole bytes and numbered from 0.
+fn of_tga(head: &[u8]) -> Option<(u64, usize, usize)> {
+    let [id, 1, 1 | 9, 0, 0, low, high, bits @ (24 | 32)] = *head.first_chunk()? else { return None };
+    Some((18 + u64::from(id), u16::from_le_bytes([low, high]).into(), usize::from(bits) / 8))
 }
 
 /// A file with another palette.

@@ -4,7 +4,7 @@
 //!
 //! An interlaced image must be held whole before its first row is known, so only small ones are read.
 
-use super::layout::{Channels, Colours, Layout, Rest};
+use super::layout::{Channels, Colours, Layout, Rest, levels};
 use crate::error::{Error, ErrorKind};
 use crate::size::{Size, at_end};
 use png::{BitDepth, ColorType, Decoder, DecodingError, Info, Limits, Reader, Transformations};
@@ -20,8 +20,14 @@ pub(crate) struct Png<R: BufRead + Seek> {
     input: R,
     transformations: Transformations,
     layout: Layout,
-    /// True if samples of 16 bits are cut to their high byte.
+    /// True if pixels of 16-bit samples are brought to levels.
+    levels: bool,
+    /// True if colours or alpha of 16 bits are cut to their high bytes for nav2.
     cut: bool,
+    /// The channels of the decoder.
+    channels: Channels,
+    /// True if no pixel is of the transparent colour, to the loader.
+    opaque: bool,
     /// The bits of a palette index, if the indices themselves are wanted.
     index_bits: Option<u8>,
 }
@@ -51,8 +57,11 @@ impl<R: BufRead + Seek> Png<R> {
             }
         }
         let transformations = match colours {
-            Colours::Meant => Transformations::EXPAND,
-            Colours::MeantIn8Bits => Transformations::EXPAND | Transformations::STRIP_16,
+            // The reference counts of a public map, of grey and alpha, are of samples that were cut so.
+            Colours::MagickLevels if info.color_type != ColorType::Grayscale => {
+                Transformations::EXPAND | Transformations::STRIP_16
+            }
+            Colours::Meant | Colours::Magick | Colours::MagickLevels => Transformations::EXPAND,
             Colours::Sdl => as_sdl(info),
         };
         let index_bits = (info.color_type == ColorType::Indexed
@@ -62,6 +71,10 @@ impl<R: BufRead + Seek> Png<R> {
         let depth = info.bit_depth as u8;
         let few_greys = (keyed && depth < 8).then(|| (1 << depth) - 1);
         let deep = info.bit_depth == BitDepth::Sixteen;
+        let deep_to_nav2 = deep && colours == Colours::MagickLevels;
+        let cut = deep_to_nav2 && transformations.contains(Transformations::STRIP_16);
+        let levels = deep_to_nav2 && !cut;
+        let opaque = matches!(colours, Colours::Magick | Colours::MagickLevels) && has_vain_key(info);
         drop(reader);
 
         let (color, depth) = reader_of(&mut input, transformations)?.output_color_type();
@@ -73,9 +86,13 @@ impl<R: BufRead + Seek> Png<R> {
             ColorType::Rgba => Channels::Rgba,
         };
         let max = if depth as u8 == 16 { 65535 } else { 255 };
-        let white = few_greys.unwrap_or(max);
-        let layout = Layout { size, channels, max, white };
-        Ok(Self { input, transformations, layout, cut: deep && max == 255, index_bits })
+        let white = few_greys.unwrap_or(if deep { u16::MAX } else { max });
+        let layout = if levels {
+            Layout { size, channels: self::levels(channels, &[], &mut Vec::new()), max: 255, white }
+        } else {
+            Layout { size, channels, max, white }
+        };
+        Ok(Self { input, transformations, layout, levels, cut, channels, opaque, index_bits })
     }
 
     /// Returns what the pieces hold.
@@ -88,7 +105,7 @@ impl<R: BufRead + Seek> Png<R> {
         self.index_bits.is_some()
     }
 
-    /// Tells whether samples of 16 bits are cut to their high byte.
+    /// Tells whether colours or alpha of 16 bits are cut to their high bytes for nav2.
     pub(super) fn is_cut(&self) -> bool {
         self.cut
     }
@@ -96,13 +113,20 @@ impl<R: BufRead + Seek> Png<R> {
     /// Gives all pixels in reading order, a row at a time; returns what follows the image.
     pub(super) fn pixels(mut self, mut each: impl FnMut(&[u8]) -> Result<(), Error>) -> Result<Rest, Error> {
         let Size { width, height } = self.layout.size;
-        let mut indices = Vec::new();
-        let mut row_of = |row: &[u8]| match self.index_bits {
-            None => each(row),
-            Some(bits) => {
-                unpack(row, bits, width, &mut indices);
-                each(&indices)
+        let mut own = Vec::new();
+        let mut row_of = |row: &[u8]| {
+            match self.index_bits {
+                Some(bits) => unpack(row, bits, width, &mut own),
+                None if self.levels => _ = levels(self.channels, row, &mut own),
+                None if self.opaque => {
+                    own.clear();
+                    own.extend(
+                        row.as_chunks().0.iter().flat_map(|&[r, g, b, _]: &[u8; 4]| [r, g, b, u8::MAX]),
+                    );
+                }
+                None => return each(row),
             }
+            each(&own)
         };
         let mut reader = reader_of(&mut self.input, self.transformations)?;
         if reader.info().interlaced {
@@ -142,6 +166,15 @@ fn decoder_of<R: BufRead + Seek>(input: R) -> Decoder<R> {
     decoder.set_ignore_text_chunk(true);
     decoder.set_ignore_iccp_chunk(true);
     decoder
+}
+
+/// Tells whether GraphicsMagick finds no pixel of the transparent colour of an RGB image, which it has with alpha all the same:
+/// it compares samples that it brought to 16 bits with those of the chunk, which it did not.
+fn has_vain_key(info: &Info<'_>) -> bool {
+    let key = info.trns.as_deref().unwrap_or_default();
+    info.color_type == ColorType::Rgb
+        && info.bit_depth == BitDepth::Eight
+        && key.iter().any(|&byte| byte != 0)
 }
 
 /// Returns what SDL_image asks of libpng. It expands greys, strips 16 bits to their high byte, and looks a palette up only if

@@ -1,6 +1,6 @@
 //! An image of any format that is read.
 
-use super::decoded::Decoded;
+use super::decoded::{Decoded, Quirk};
 use super::format::Reader;
 use super::layout::{Colours, Layout, MaxPixels, Rest};
 use super::pgm::Pgm;
@@ -50,12 +50,12 @@ impl<R: BufRead + Seek> Image<R> {
         }
     }
 
-    /// Tells whether samples of 16 bits are cut to their high byte.
-    pub(crate) fn is_cut(&self) -> bool {
+    /// Returns what a loader takes in another way, or refuses, of an image that was decoded.
+    pub(crate) fn quirk(&self) -> Option<Quirk> {
         match self {
-            Self::Pgm(_) => false,
-            Self::Png(png) => png.is_cut(),
-            Self::Decoded(image) => image.cut,
+            Self::Pgm(_) => None,
+            Self::Png(png) => png.is_cut().then_some(Quirk::DeepColours),
+            Self::Decoded(image) => image.quirk,
         }
     }
 

@@ -158,7 +158,8 @@ fn helping(is_probability: bool, value: f64) -> &'static str {
         _ if !is_probability => "",
         -1.0 => "; np.where(p < 0, 0.5, p) makes -1 unknown",
         -1e-6..=1.000001 => "; np.clip(p, 0, 1) cuts rounding off",
-        1.0..=100.0 => "; p / 100 makes probabilities of percentages",
+        1.0..=100.0 if value.fract() == 0.0 => "; p / 100 makes probabilities of percentages",
+        1.0..=100.0 => "; p / 100 makes probabilities of percentages, 1 / (1 + np.exp(-l)) of log-odds",
         _ => "; 1 / (1 + np.exp(-l)) makes probabilities of log-odds",
     }
 }

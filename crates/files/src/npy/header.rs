@@ -94,8 +94,7 @@ impl Header {
         let mut start = Vec::new();
         input.by_ref().take(8).read_to_end(&mut start)?;
         let [0x93, b'N', b'U', b'M', b'P', b'Y', major, _] = start[..] else {
-            let message = "is no .npy file: it does not start with \\x93NUMPY";
-            return Err(Error::new(ErrorKind::Format, message).at(Place::Byte(0)));
+            return Err(none(&start));
         };
         let (length, prefix) = match major {
             1 => {
@@ -172,8 +171,12 @@ impl Header {
                 .with_value(shown)
                 .allowing("; allowed is ", format!("{allowed}: {what}"));
             match (self.shape.len(), N) {
+                (3, 2) if self.shape[2] == 1 => refused.followed_by("; a[:, :, 0] is its map"),
                 (3, 2) => refused.followed_by("; a[0] is its first map, a[:, :, 0] its first channel"),
-                (1, 2) => refused.followed_by("; p.reshape(rows, columns) makes a map of it"),
+                (0 | 1, 2) => refused.followed_by("; p.reshape(rows, columns) makes a map of it"),
+                (4.., 2) if self.shape.iter().filter(|&&length| length != 1).count() <= 2 => {
+                    refused.followed_by("; np.squeeze(p) drops dimensions of 1")
+                }
                 (2, 3) => refused.followed_by("; p[None] makes a stack of one map"),
                 (2, 1) => refused.followed_by("; w.ravel() makes a list of it"),
                 _ => refused,
@@ -187,16 +190,40 @@ impl Header {
         if claimed == u128::from(length) {
             return Ok(());
         }
-        let kind = if claimed > u128::from(length) { ErrorKind::CutShort } else { ErrorKind::Format };
+        let (kind, mended) = if claimed > u128::from(length) {
+            (ErrorKind::CutShort, ": it is cut short; copy or save it again")
+        } else {
+            (ErrorKind::Format, ": more follows; save one array by itself, as by np.save('p.npy', p)")
+        };
         Err(Error::new(kind, format!("has {length} bytes"))
             .with_value(length.to_string())
-            .allowing(", its header claims ", claimed.to_string()))
+            .allowing(", its header claims ", claimed.to_string())
+            .followed_by(mended))
     }
 }
 
 /// Returns a number of dimensions in words.
 fn in_words(dimensions: usize) -> String {
     if dimensions == 1 { "1 dimension".to_owned() } else { format!("{dimensions} dimensions") }
+}
+
+/// Creates the error of a file that begins with other bytes, with a way out.
+fn none(start: &[u8]) -> Error {
+    let what = match start {
+        [] => "it is empty; copy or save it again",
+        [0x80, 2..=5, ..] => "it is a pickle; load it with pickle.load, then np.save('p.npy', p)",
+        [b'P', b'K', 3 | 5, 4 | 6, ..] => "it is a zip archive; if np.savez wrote it, name it .npz",
+        [0x89, b'H', b'D', b'F', ..] => "it is HDF5; load it with h5py, then np.save('p.npy', p)",
+        [b'<', ..] => "it is a web page or other XML; download the file itself",
+        start
+            if !start.starts_with(b"\x93")
+                && start.iter().all(|byte| byte.is_ascii_graphic() || byte.is_ascii_whitespace()) =>
+        {
+            "it is text; np.save('p.npy', np.loadtxt(FILE)) makes one of numbers"
+        }
+        _ => "it does not start with \\x93NUMPY; np.save('p.npy', p) writes one",
+    };
+    Error::new(ErrorKind::Format, format!("is no .npy file: {what}")).at(Place::Byte(0))
 }
 
 /// Creates the error of a header that is none.

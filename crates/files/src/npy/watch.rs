@@ -22,8 +22,9 @@ const SAME: f64 = 1e-7;
 pub(super) struct FloatWatch {
     /// The value of unknown.
     unknown: f64,
-    /// The distance from it up to which sums of rounded numbers end beside it.
-    beside: f64,
+    /// The distance from it up to which sums of rounded numbers end beside it, and that of sums in single precision, which the
+    /// numbers may have been before.
+    beside: [f64; 2],
     /// True if the numbers are probabilities, which may be greys.
     is_probability: bool,
     cells: u64,
@@ -37,7 +38,8 @@ impl FloatWatch {
     pub(super) fn new<E: Encoding>() -> Self {
         // Some units in the last place of 1/2: the rounding of some dozens of sums.
         let single = size_of::<E::Stored>() == 4;
-        let beside = 8.0 * if single { f64::from(f32::EPSILON) } else { f64::EPSILON };
+        let coarse = 8.0 * f64::from(f32::EPSILON);
+        let beside = [if single { coarse } else { 8.0 * f64::EPSILON }, coarse];
         Self {
             unknown: E::value(E::unknown()),
             beside,
@@ -61,7 +63,9 @@ impl FloatWatch {
         for &cell in cells {
             let value = E::value(cell);
             let distance = (value - self.unknown).abs();
-            self.beside_unknown += u64::from(distance <= self.beside && distance > 0.0);
+            let [own, coarse] = self.beside;
+            let is_beside = distance <= own || distance <= coarse && f64::from(value as f32) == value;
+            self.beside_unknown += u64::from(is_beside && distance > 0.0);
             if self.is_probability {
                 for (grey, (count, seen)) in OFTEN_UNKNOWN.into_iter().zip(&mut self.greys) {
                     if (value - f64::from(grey) / 255.0).abs() < SAME {

@@ -1,10 +1,11 @@
 //! What the yaml file of a ROS map says.
 
-use super::text::text;
+use super::text::{NOT_UTF_8, text};
 use super::thresholds::Thresholds;
 use super::yaml::{YamlValue, values};
-use crate::error::{Error, ErrorKind, Place};
+use crate::error::{Error, ErrorKind, Place, short};
 use crate::options::{Mode, Semantics};
+use crate::text::shortened;
 use crate::warning::Warning;
 use std::io::Read;
 
@@ -104,6 +105,12 @@ fn missing(key: &'static str) -> Error {
 /// Takes the value of a key as one text.
 fn scalar(value: Option<YamlValue>, key: &'static str) -> Result<String, Error> {
     match value {
+        Some(YamlValue::Scalar(text)) if text.contains(NOT_UTF_8) => {
+            Err(Error::new(ErrorKind::Format, format!("{key} is {text:?}, which is not UTF-8 text"))
+                .at(Place::Key(key))
+                .with_value(text)
+                .followed_by("; save the file as UTF-8"))
+        }
         Some(YamlValue::Scalar(text)) => Ok(text),
         Some(YamlValue::List(_)) => Err(Error::new(ErrorKind::Format, format!("{key} is a list"))
             .at(Place::Key(key))
@@ -120,7 +127,7 @@ fn number(
     is_allowed: impl Fn(f64) -> bool,
 ) -> Result<f64, Error> {
     let x = finite(&scalar(value, key)?, key, key, allowed)?;
-    if is_allowed(x) { Ok(x) } else { Err(Error::out_of_range(key, x, allowed).at(Place::Key(key))) }
+    if is_allowed(x) { Ok(x) } else { Err(Error::out_of_range(key, short(x), allowed).at(Place::Key(key))) }
 }
 
 /// Parses a finite number: `.nan`, `.inf` and words are none here. It is the value of `key`, or a part of it that is
@@ -145,7 +152,11 @@ fn finite(text: &str, what: &str, key: &'static str, allowed: &str) -> Result<f6
 
 /// Creates the error of a text that is not allowed.
 fn quoted(what: &str, text: &str, key: &'static str) -> Error {
-    Error::new(ErrorKind::OutOfRange, format!("{what} is {text:?}")).with_value(text).at(Place::Key(key))
+    let shown = shortened(text.as_bytes());
+    let more = if shown.len() < text.len() { "..." } else { "" };
+    Error::new(ErrorKind::OutOfRange, format!("{what} is {shown:?}{more}"))
+        .with_value(text)
+        .at(Place::Key(key))
 }
 
 /// Takes the value of the origin.

@@ -1,14 +1,14 @@
 //! The rules of `nav2_map_server` since pull request 5071 (April 2025): GraphicsMagick's grey levels, and thresholds in single precision.
 //!
 //! GraphicsMagick (measured: 1.3.40) takes `0.299 R + 0.587 G + 0.114 B` as the grey of a colour, rounded to 16 bits, and
-//! gives nav2 its 8-bit level, rounded down. An alpha below 255 makes a cell unknown in trinary and scale mode. Raw mode
-//! ignores `negate` and alpha. The samples of a 16-bit PNG are cut to their high byte.
+//! gives nav2 its 8-bit level, rounded down. An alpha below the largest makes a cell unknown in trinary and scale mode. Raw
+//! mode ignores `negate` and alpha.
 
 use super::description::Description;
 use super::pixel_table::PixelTable;
 use super::suspects::SuspectGrey;
 use super::thresholds::Thresholds;
-use crate::image::{Channels, Layout};
+use crate::image::{Channels, GREY_WEIGHTS, Layout, level};
 use crate::options::Mode;
 use crate::warning::SAVED_UNKNOWN;
 
@@ -29,9 +29,7 @@ pub(super) fn table(
     };
     let white = u32::from(layout.max);
     let table = match layout.channels {
-        Channels::Rgb | Channels::Rgba => {
-            PixelTable::new(layout, [299, 587, 114, 0], |sum| cell(((257 * sum + 500) / 1000 / 257) as u8))
-        }
+        Channels::Rgb | Channels::Rgba => PixelTable::new(layout, GREY_WEIGHTS, |sum| cell(level(257 * sum))),
         _ => PixelTable::new(layout, layout.colour_sum(), |grey| cell((255 * grey / white) as u8)),
     };
     match mode {

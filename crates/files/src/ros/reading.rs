@@ -58,8 +58,9 @@ fn read_image_as<K: Sink>(
     let mode = options.mode.unwrap_or(description.mode);
     let thresholds = description.thresholds(mode)?;
     let colours = match (mode, options.semantics) {
-        (Mode::Probability, _) | (_, Semantics::Nav2Humble) => Colours::Meant,
-        (_, Semantics::Nav2) => Colours::MeantIn8Bits,
+        (Mode::Probability, _) => Colours::Meant,
+        (_, Semantics::Nav2) => Colours::MagickLevels,
+        (_, Semantics::Nav2Humble) => Colours::Magick,
         (_, Semantics::Ros1) => Colours::Sdl,
     };
     let image = Image::open(input, &description.image, colours, K::max_pixels(options))?;

@@ -2,7 +2,7 @@
 //! itself may read in another way.
 
 use super::description::Description;
-use crate::image::{Image, Layout};
+use crate::image::{Image, Layout, Quirk};
 use crate::options::{Mode, Semantics};
 use crate::warning::{SAVED_UNKNOWN, Warning};
 use std::io::{BufRead, Seek};
@@ -71,13 +71,20 @@ impl SuspectGrey {
 pub(super) fn of_image<R: BufRead + Seek>(semantics: Semantics, image: &Image<R>) -> Option<Warning> {
     let white = image.layout().white;
     match (semantics, image) {
-        (Semantics::Nav2, image) if image.is_cut() => Some(Warning::SixteenBits),
         (Semantics::Ros1, Image::Pgm(_)) if white > 255 => Some(Warning::PgmMaximumRefused { white }),
         (Semantics::Nav2 | Semantics::Nav2Humble, Image::Pgm(_)) if white != 255 && white != 65535 => {
             Some(Warning::PgmMaximum { white })
         }
         (Semantics::Ros1, image) if image.is_indices() => Some(Warning::PaletteIndices),
-        _ => None,
+        _ => match (semantics, image.quirk()?) {
+            (Semantics::Nav2, Quirk::DeepColours) => Some(Warning::SixteenBits),
+            (_, Quirk::FewBits) => Some(Warning::LevelsDiffer { of: "a BMP of 16 bits" }),
+            (Semantics::Nav2Humble | Semantics::Ros1, Quirk::Inks) => {
+                Some(Warning::LevelsDiffer { of: "a JPEG of four inks (CMYK)" })
+            }
+            (Semantics::Ros1, Quirk::NotInSdl(of)) => Some(Warning::RefusedByRos1 { of }),
+            _ => None,
+        },
     }
 }
 
@@ -101,5 +108,7 @@ pub(super) fn greys_thresholded(sums: &[(usize, u64)], white: usize, layout: &La
     let often = |&&(sum, _): &&(usize, u64)| [127, 128, SAVED_UNKNOWN].map(usize::from).contains(&level(sum));
     let unknown = sums.iter().filter(often).max_by_key(|&&(_, count)| count);
     let own = |sum: usize| (sum * usize::from(layout.white) / white) as u16;
-    Some(Warning::GreysThresholded { levels: sums.len(), count, unknown: unknown.map(|&(sum, _)| own(sum)) })
+    // Of a deeper image than this the level is no grey of its own.
+    let unknown = unknown.filter(|_| layout.white <= layout.max).map(|&(sum, _)| own(sum));
+    Some(Warning::GreysThresholded { levels: sums.len(), count, unknown })
 }

@@ -1,26 +1,30 @@
 //! The text of a yaml file, as yaml-cpp takes its bytes.
 //!
-//! yaml-cpp passes over comments in any encoding, takes a tab for a space between tokens, and reads UTF-16 that says so.
+//! yaml-cpp passes over comments and values that nobody asks for in any encoding, takes a tab for a space between tokens, and reads UTF-16 that says so.
 //! The parser used here does not: what it would refuse is put right before, with a warning.
 
-use crate::error::{Error, ErrorKind, Place};
+use crate::error::{Error, ErrorKind};
 use crate::warning::Warning;
+use std::borrow::Cow;
 
-/// Decodes a file. Bytes of comments that are no UTF-8 are replaced, and tabs between tokens become spaces.
+/// Decodes a file. Bytes that are no UTF-8 are [replaced](NOT_UTF_8), and tabs between tokens become spaces.
 pub(super) fn text(bytes: &[u8], warnings: &mut Vec<Warning>) -> Result<String, Error> {
     let decoded = match bytes {
         [0xff, 0xfe, rest @ ..] => utf_16(rest, u16::from_le_bytes)?,
         [0xfe, 0xff, rest @ ..] => utf_16(rest, u16::from_be_bytes)?,
-        _ => utf_8(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes), warnings)?,
+        _ => utf_8(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes), warnings),
     };
     let mut text = String::with_capacity(decoded.len());
+    let (mut first, mut count) = (None, 0);
     for (line, number) in decoded.split_inclusive('\n').zip(1..) {
         if line.contains('\t') && spaced(line, &mut text) {
-            warnings.push(Warning::TabAsSpace { line: number });
+            first.get_or_insert(number);
+            count += 1;
         } else if !line.contains('\t') {
             text.push_str(line);
         }
     }
+    warnings.extend(first.map(|line| Warning::TabAsSpace { line, count }));
     Ok(text)
 }
 
@@ -32,27 +36,18 @@ fn utf_16(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> Result<String, Error> {
     text.ok_or_else(|| Error::new(ErrorKind::Format, "is not the UTF-16 text it says it is"))
 }
 
-/// Decodes UTF-8, with anything in comments.
-fn utf_8(bytes: &[u8], warnings: &mut Vec<Warning>) -> Result<String, Error> {
-    if let Ok(text) = str::from_utf8(bytes) {
-        return Ok(text.to_owned());
+/// The character that stands for bytes that are no UTF-8: a value that has it is not the one of the file.
+pub(super) const NOT_UTF_8: char = char::REPLACEMENT_CHARACTER;
+
+/// Decodes UTF-8, with anything in comments and in values that are not read.
+fn utf_8(bytes: &[u8], warnings: &mut Vec<Warning>) -> String {
+    match String::from_utf8_lossy(bytes) {
+        Cow::Borrowed(text) => text.to_owned(),
+        Cow::Owned(text) => {
+            warnings.push(Warning::CommentsNotUtf8);
+            text
+        }
     }
-    let mut text = String::with_capacity(bytes.len());
-    let mut start = 0;
-    for line in bytes.split_inclusive(|&byte| byte == b'\n') {
-        let comment = (0..line.len())
-            .find(|&at| line[at] == b'#' && (at == 0 || line[at - 1].is_ascii_whitespace()))
-            .unwrap_or(line.len());
-        let (value, comment) = line.split_at(comment);
-        text.push_str(str::from_utf8(value).map_err(|error| {
-            let place = Place::Byte((start + error.valid_up_to()) as u64);
-            Error::new(ErrorKind::Format, "is not UTF-8 text").at(place).caused_by(error)
-        })?);
-        text.push_str(&String::from_utf8_lossy(comment));
-        start += line.len();
-    }
-    warnings.push(Warning::CommentsNotUtf8);
-    Ok(text)
 }
 
 /// Appends a line whose tabs between tokens are spaces; tells whether there were some. Tabs in quotes, within a value and

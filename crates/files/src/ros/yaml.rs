@@ -1,5 +1,6 @@
 //! The keys and values of a yaml file, read by events: no document is built, so a small file cannot become a large one.
 
+use super::text::NOT_UTF_8;
 use crate::error::{Error, ErrorKind, Place};
 use crate::warning::Warning;
 use saphyr_parser::{Event, Parser, StrInput};
@@ -38,9 +39,24 @@ impl<'a> Events<'a> {
             Some(Err(error)) => {
                 let line = error.marker().line();
                 // The parser refuses a tab, also a legal one, in words that do not say so.
-                let tabbed =
-                    self.text.lines().nth(line.saturating_sub(1)).is_some_and(|line| line.contains('\t'));
-                let what = if tabbed { "the line has a tab; write a space instead" } else { error.info() };
+                let has =
+                    |c| self.text.lines().nth(line.saturating_sub(1)).is_some_and(|line| line.contains(c));
+                let what = match () {
+                    () if has('\t') => "the line has a tab; write a space instead",
+                    () if self
+                        .text
+                        .lines()
+                        .skip(line.saturating_sub(2))
+                        .take(3)
+                        .any(|line| line.contains(NOT_UTF_8)) =>
+                    {
+                        "the line is not UTF-8 text; save the file as UTF-8"
+                    }
+                    () if self.text.contains(":\u{a0}") => {
+                        "a no-break space follows a colon; write a plain one"
+                    }
+                    () => error.info(),
+                };
                 let message = format!("is malformed YAML in line {line}: {what}");
                 return Err(Error::new(ErrorKind::Format, message)
                     .at(Place::Line(line as u64))

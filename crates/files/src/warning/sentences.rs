@@ -1,6 +1,7 @@
 //! The sentence of each warning.
 
 use super::{SAVED_UNKNOWN, Warning};
+use crate::error::short;
 use crate::options::Mode;
 use std::fmt;
 
@@ -21,7 +22,8 @@ impl fmt::Display for Warning {
                 match free_thresh {
                     Some(thresh) => write!(
                         f,
-                        " under free_thresh {thresh}; a free_thresh of 0.196 keeps that grey unknown"
+                        " under free_thresh {}; a free_thresh of 0.196 keeps that grey unknown",
+                        short(thresh)
                     ),
                     None if mode == Mode::Scale => write!(f, "; mode scale has no grey for unknown"),
                     None => Ok(()),
@@ -46,17 +48,19 @@ impl fmt::Display for Warning {
             ),
             Self::ThresholdsAbove1 { free, occupied } => {
                 let above = free.max(occupied);
+                let [free, occupied] = [free, occupied].map(short);
                 write!(
                     f,
                     "thresholds above 1 (free_thresh {free}, occupied_thresh {occupied}): no cell is above 1"
                 )?;
-                if above > 2.0 {
+                if (2.0..=100.0).contains(&above) {
                     write!(f, "; if they are percentages, write {} for {above}", above / 100.0)?;
                 }
                 Ok(())
             }
             Self::ThresholdsCross { free, occupied, free_wins } => {
                 let state = if free_wins { "free" } else { "occupied" };
+                let [free, occupied] = [free, occupied].map(short);
                 write!(
                     f,
                     "free_thresh {free} is not below occupied_thresh {occupied}: cells that both hold for are read \
@@ -69,9 +73,15 @@ impl fmt::Display for Warning {
             Self::MoreDocuments => {
                 write!(f, "the yaml file goes on after its first document, which alone is read")
             }
-            Self::CommentsNotUtf8 => write!(f, "comments of the yaml file are not UTF-8, and passed over"),
-            Self::TabAsSpace { line } => {
-                write!(f, "line {line} of the yaml file has a tab, which is read as a space")
+            Self::CommentsNotUtf8 => {
+                write!(
+                    f,
+                    "comments of the yaml file are not UTF-8, or values not read here; they are passed over"
+                )
+            }
+            Self::TabAsSpace { line, count } => {
+                write!(f, "line {line} of the yaml file has a tab, which is read as a space")?;
+                if count > 1 { write!(f, ", as in {} more lines", count - 1) } else { Ok(()) }
             }
             Self::BytesAfterImage => {
                 write!(f, "the file goes on after its image; what follows is passed over")
@@ -101,8 +111,15 @@ impl fmt::Display for Warning {
                 "{} of {grey}/255, a grey that often means unknown, counted as observed",
                 cells_in_words(count)
             ),
-            Self::SixteenBits => {
-                write!(f, "the image has 16 bits: nav2_map_server may take its levels for others by 1 of 255")
+            Self::SixteenBits => write!(
+                f,
+                "the image has colours or alpha of 16 bits: nav2_map_server may take its levels for others by 1 of 255"
+            ),
+            Self::LevelsDiffer { of } => {
+                write!(f, "the loader takes the levels of {of} for others; save it as PNG")
+            }
+            Self::RefusedByRos1 { of } => {
+                write!(f, "ROS 1's map_server refuses {of}; it is read by its rules all the same")
             }
             Self::PgmMaximum { white } => write!(
                 f,

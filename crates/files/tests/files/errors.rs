@@ -113,7 +113,7 @@ fn a_broken_format_has_its_place() {
     );
     assert!(refused.source().is_some());
     let refused = Description::read(&b"image: \xff"[..], Semantics::Nav2).unwrap_err();
-    assert_eq!((refused.kind(), refused.place()), (ErrorKind::Format, Some(&Place::Byte(7))));
+    assert_eq!((refused.kind(), refused.place()), (ErrorKind::Format, Some(&Place::Key("image"))));
     let refused = Description::read(&b"image: a\n"[..], Semantics::Nav2).unwrap_err();
     assert_eq!((refused.kind(), refused.place()), (ErrorKind::Format, Some(&Place::Key("resolution"))));
     let refused = refused_image(&raw_png(3, 2, 8, 0, 0, &[("IDAT", zlib(&[0; 7]))]), &Options::default());

@@ -137,7 +137,9 @@ fn a_yaml_file_is_read_as_yaml_cpp_reads_it() {
         (good.replace("negate: 0", "negate:\t0 \t# tab").into_bytes(), "line 6 of the yaml file has a tab"),
         (good.replace("image: ", "image:\t").into_bytes(), "line 1 of the yaml file has a tab"),
         (good.replace("[-3.5, 2.25,", "[\t-3.5,\t2.25 ,").into_bytes(), "line 3 of the yaml file has a tab"),
+        (good.replace(": ", ":\t").into_bytes(), "has a tab, which is read as a space, as in 5 more lines"),
         (latin_1, "comments of the yaml file are not UTF-8"),
+        ([b"author: \"J\xfcrgen # x\"\n", good.as_bytes()].concat(), "or values not read here"),
     ] {
         let (counts, warnings) = read(&text, &saved(), &Options::default());
         assert_eq!(counts, (1, 1, 1));
@@ -151,6 +153,36 @@ fn a_yaml_file_is_read_as_yaml_cpp_reads_it() {
     // In quotes and in comments a tab stays.
     let (_, warnings) = read(format!("{good}other: '\t'\n# a\tb\n"), &saved(), &Options::default());
     assert_eq!(warnings, []);
+}
+
+/// A value that is read must be text, and none is repeated at length.
+#[test]
+fn values_that_are_refused_are_shown_in_short() {
+    let good = yaml("map.pgm", "negate: 0\n");
+    let folder = Folder::new();
+    folder.write("map.pgm", saved());
+    let latin_1 = [b"image: k\xfcche.pgm\n", good.as_bytes()].concat();
+    let with = |resolution: &str| good.replace("0.05", resolution).into_bytes();
+    for (text, words) in [
+        (latin_1, "which is not UTF-8 text; save the file as UTF-8"),
+        (
+            with(&"9".repeat(400)),
+            "resolution is \"99999999999999999999999999999999\"..., allowed is a positive number",
+        ),
+        (with("-1e-300"), "resolution is -1e-300, allowed is a positive number of metres"),
+        (
+            good.replace("resolution: ", "resolution:\u{a0}").into_bytes(),
+            "a no-break space follows a colon; write a plain one",
+        ),
+    ] {
+        let refused = refusal_of(&folder.write("map.yaml", text), &Options::default());
+        let (_, line) = refused.split_once("map.yaml: ").unwrap();
+        assert!(line.contains(words) && line.len() < 160, "{line}: {words}");
+    }
+    let huge = good.replace("0.196", "1e300").replace("0.65", "2e300");
+    let (_, warnings) = read(huge, &saved(), &Options::default());
+    assert!(warnings.iter().all(|warning| warning.to_string().len() < 160), "{warnings:?}");
+    assert!(!warnings[0].to_string().contains("percentages"), "{warnings:?}");
 }
 
 /// An image with alpha, of a transparent, a half transparent and an opaque pixel of each of black, 205 and white.

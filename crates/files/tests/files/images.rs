@@ -32,11 +32,11 @@ fn every_kind_of_png_under_both_loaders_and_all_modes() {
                         .iter()
                         .map(|pixel| match semantics {
                             Semantics::Nav2 => {
-                                let (colour, white) = kind.meant(pixel);
+                                let (colour, white) = kind.by_nav2(pixel);
                                 rule.nav2(mode, colour, white)
                             }
                             Semantics::Nav2Humble => {
-                                let (colour, white) = kind.meant(pixel);
+                                let (colour, white) = kind.by_magick(pixel);
                                 rule.nav2_humble(mode, colour, kind.has_alpha(), white)
                             }
                             Semantics::Ros1 => {

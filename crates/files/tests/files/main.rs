@@ -11,6 +11,7 @@ mod bag_seeds;
 mod bag_trees;
 mod bags;
 mod decoded;
+mod decoders;
 mod errors;
 mod field;
 mod filters;

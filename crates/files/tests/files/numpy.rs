@@ -78,7 +78,24 @@ fn refusals_give_the_line_of_python_that_helps() {
         (doubles(&[0.1, f64::NAN]), &Options::default(), "np.nan_to_num(p, nan=0.5)"),
         (doubles(&[0.1, f64::NAN]), &log_odds, "np.nan_to_num(l, nan=0.0)"),
         (doubles(&[0.1, 50.0]), &Options::default(), "p / 100"),
+        (doubles(&[0.1, 2.25]), &Options::default(), "1 / (1 + np.exp(-l)) of log-odds"),
         (doubles(&[0.1, 205.0]), &Options::default(), "(255 - g) / 255"),
+        (npy("'<f8'", false, "()", &[0; 8]), &Options::default(), "p.reshape(rows, columns)"),
+        (npy("'<f8'", false, "(1, 1, 1, 2)", &[0; 16]), &Options::default(), "np.squeeze(p)"),
+        (npy("'<f8'", false, "(2, 1, 1)", &[0; 16]), &Options::default(), "a[:, :, 0] is its map"),
+        (b"\x80\x04\x95".to_vec(), &Options::default(), "it is a pickle; load it with pickle.load"),
+        (
+            b"PK\x03\x04".to_vec(),
+            &Options::default(),
+            "it is a zip archive; if np.savez wrote it, name it .npz",
+        ),
+        (b"\x89HDF\r\n\x1a\n".to_vec(), &Options::default(), "it is HDF5; load it with h5py"),
+        (b"<!DOCTYPE html>".to_vec(), &Options::default(), "it is a web page"),
+        (b"0.5 0.25\n".to_vec(), &Options::default(), "np.loadtxt(FILE)"),
+        (Vec::new(), &Options::default(), "it is empty; copy or save it again"),
+        (b"\x01\x02\x03\x04".to_vec(), &Options::default(), "np.save('p.npy', p) writes one"),
+        (doubles(&[0.1, 0.2])[..140].to_vec(), &Options::default(), "it is cut short; copy or save it again"),
+        (doubles(&[0.1, 0.2]).repeat(2), &Options::default(), "more follows; save one array by itself"),
         (doubles(&[0.1, -1.0]), &Options::default(), "np.where(p < 0, 0.5, p)"),
         (doubles(&[0.1, 1.0000000000000002]), &Options::default(), "np.clip(p, 0, 1)"),
         (doubles(&[0.1, -3.5]), &Options::default(), "1 / (1 + np.exp(-l))"),
@@ -120,6 +137,13 @@ fn averages_beside_unknown_are_counted() {
     let log_odds = Options { encoding: Some(ArrayEncoding::LogOdds), ..Options::default() };
     assert_eq!(read(&doubles(&[1e-17, 1.0]), &log_odds).warnings, [Warning::BesideUnknown { count: 1 }]);
     assert_eq!(read(&doubles(&[1e-3, 1.0, 0.0]), &log_odds).warnings, []);
+    // An average in single precision, saved in double.
+    let widened = f64::from(0.5_f32.next_up());
+    assert_eq!(
+        read(&doubles(&[widened, 0.25]), &Options::default()).warnings,
+        [Warning::BesideUnknown { count: 1 }]
+    );
+    assert_eq!(read(&doubles(&[widened.next_up(), 0.25]), &Options::default()).warnings, []);
 }
 
 #[test]
@@ -169,6 +193,49 @@ fn an_array_of_an_archive_is_named_by_its_key() {
         assert_eq!(probabilities(&read_twice(&one, &Options::default()).unwrap()), [0.25, 0.5, 1.0]);
     }
     assert!(refusal("map.npz", "no archive", &Options::default()).contains("is no .npz file"));
+}
+
+/// As in NumPy a key may have the ending of its member, and colons; other members than arrays are none, and a checksum that
+/// does not fit is found.
+#[test]
+fn archives_are_read_as_numpy_reads_them() {
+    let map = doubles(&[0.25, 0.5, 1.0]);
+    let folder = Folder::new();
+    let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
+    for (name, bytes) in [("readme.txt", &b"text"[..]), ("a:b.npy", &map)] {
+        archive
+            .start_file(name, SimpleFileOptions::default().compression_method(CompressionMethod::Stored))
+            .unwrap();
+        archive.write_all(bytes).unwrap();
+    }
+    let bytes = archive.finish().unwrap().into_inner();
+    let path = folder.write("one.npz", &bytes);
+    for key in ["", ":a:b", ":a:b.npy"] {
+        let named = Path::new(&format!("{}{key}", path.display())).to_owned();
+        assert_eq!(
+            probabilities(&read_twice(&named, &Options::default()).unwrap()),
+            [0.25, 0.5, 1.0],
+            "{key}"
+        );
+    }
+    let place = bytes.windows(8).position(|window| window == 0.25_f64.to_le_bytes()).unwrap();
+    let mut damaged = bytes.clone();
+    damaged[place] ^= 1;
+    assert!(
+        refusal("map.npz", &damaged, &Options::default()).contains("the checksum of the array is another")
+    );
+    assert!(refusal("map.npz", &bytes[..99], &Options::default()).contains("is no .npz file, or cut short"));
+    let none = npz(&[], CompressionMethod::Stored);
+    assert!(refusal("map.npz", &none, &Options::default()).contains("holds no array"));
+    // A method of compression that NumPy does not write: its number stands in both heads of the member.
+    let mut packed = npz(&[("map", &map)], CompressionMethod::Stored);
+    let central = packed.windows(4).position(|window| window == b"PK\x01\x02").unwrap();
+    (packed[8], packed[central + 10]) = (12, 12);
+    let line = refusal("map.npz", &packed, &Options::default());
+    assert!(
+        line.contains("is an .npz file that is not read") && line.contains("np.savez_compressed"),
+        "{line}"
+    );
 }
 
 /// 400 million cells would be above the limit on those that are kept; the file only claims them.

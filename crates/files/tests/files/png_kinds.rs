@@ -120,6 +120,24 @@ impl Kind {
         (colour, white)
     }
 
+    /// As [`Self::meant`], but for the transparent colour of an RGB image of 8 bits, which GraphicsMagick does not find: it
+    /// compares it with samples that it brought to 16 bits.
+    pub(crate) fn by_magick(&self, pixel: &[u16]) -> ([u32; 4], u32) {
+        let ([r, g, b, alpha], white) = self.meant(pixel);
+        let is_vain = self.colour == ColorType::Rgb && self.depth == 8;
+        ([r, g, b, if is_vain { white } else { alpha }], white)
+    }
+
+    /// As [`Self::by_magick`], with 16 bits of all but greys alone cut to their high byte.
+    pub(crate) fn by_nav2(&self, pixel: &[u16]) -> ([u32; 4], u32) {
+        match self.by_magick(pixel) {
+            ([r, g, b, alpha], 65535) if self.colour != ColorType::Grayscale => {
+                ([r, g, b, alpha].map(|sample| sample >> 8), 255)
+            }
+            other => other,
+        }
+    }
+
     /// Tells whether its pixels have an alpha.
     pub(crate) fn has_alpha(&self) -> bool {
         self.transparency.is_some() || matches!(self.colour, ColorType::GrayscaleAlpha | ColorType::Rgba)

@@ -14,17 +14,17 @@ pub(crate) struct Rule {
 
 impl Rule {
     pub(crate) fn nav2(&self, mode: Mode, [r, g, b, a]: [u32; 4], white: u32) -> i8 {
-        let byte = |sample: u32| if white == 65535 { sample >> 8 } else { sample * 255 / white };
-        let grey_16 = (0.299 * f64::from(257 * byte(r))
-            + 0.587 * f64::from(257 * byte(g))
-            + 0.114 * f64::from(257 * byte(b))
+        let quantum = |sample: u32| if white == 65535 { sample } else { 257 * (sample * 255 / white) };
+        let grey_16 = (0.299 * f64::from(quantum(r))
+            + 0.587 * f64::from(quantum(g))
+            + 0.114 * f64::from(quantum(b))
             + 1e-6)
             .round() as u32;
         let level = grey_16 / 257;
         if mode == Mode::Raw {
             return if level > 100 { -1 } else { level as i8 };
         }
-        if byte(a) < 255 {
+        if a < white {
             return -1;
         }
         let shade = level as f32 / 255.0_f32;

@@ -15,6 +15,7 @@ mod stretch;
 mod tables;
 #[cfg(test)]
 mod tests;
+mod weights;
 
 pub use grading::graded;
 pub use rule::Rule;

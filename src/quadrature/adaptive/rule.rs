@@ -1,9 +1,10 @@
 //! Gauss-Kronrod rules: `2n + 1` values of the integrand give the integral twice, with the `n` nodes of Gauss and
-//! with all, and the coefficients of its Legendre series, which tell how fast either converges.
+//! with all, and coefficients of its series in orthogonal polynomials, which tell how fast either converges.
 
 use super::compensated::Compensated;
 use super::stretch::Stretch;
 use super::tables;
+use super::weights::{BANDS, MOST_DEGREES, bands, ends, top_degrees};
 use crate::real::Real;
 
 /// A Gauss-Kronrod pair, named after its evaluations.
@@ -42,7 +43,7 @@ struct Table {
     nodes: &'static [f64],
     kronrod: &'static [f64],
     gauss: &'static [f64],
-    bands: &'static [[f64; 8]],
+    bands: &'static [[f64; BANDS + MOST_DEGREES]],
     ends: &'static [[f64; 2]],
 }
 
@@ -102,7 +103,7 @@ impl Rule {
                     nodes: &tables::$nodes,
                     kronrod: &tables::$kronrod,
                     gauss: &tables::$gauss,
-                    bands: const { &bands(&tables::$nodes) },
+                    bands: const { &bands(&tables::$nodes, &tables::$kronrod) },
                     ends: const { &ends(&tables::$nodes) },
                 }
             };
@@ -120,6 +121,18 @@ impl Rule {
     /// Returns the outermost node.
     pub(super) fn outermost<T: Real>(self) -> T {
         T::nearest(self.table().nodes[0])
+    }
+
+    /// Returns the nodes of one side, from the outermost to the middle.
+    #[cfg(test)]
+    pub(super) fn nodes(self) -> &'static [f64] {
+        self.table().nodes
+    }
+
+    /// Returns the factors of each node of one side in the coefficients of the series.
+    #[cfg(test)]
+    pub(super) fn bands(self) -> &'static [[f64; BANDS + MOST_DEGREES]] {
+        self.table().bands
     }
 
     /// Returns the part of a stretch between its end and the outermost node.
@@ -152,7 +165,8 @@ impl Table {
         // Means rather than integrals: nothing overflows that need not.
         let half = |weight: f64| T::nearest(weight) * T::HALF;
         let (mut by_all, mut by_gauss) = (Compensated::default(), Compensated::default());
-        let (mut size, mut series) = (T::zero(), [T::zero(); 8]);
+        let degrees = BANDS + top_degrees(self.nodes.len() - 1);
+        let (mut size, mut series) = (T::zero(), [T::zero(); BANDS + MOST_DEGREES]);
         let mut ends = [T::zero(); 2];
         for (i, (&weight, band)) in self.kronrod.iter().zip(self.bands).enumerate() {
             // The middle node counts once.
@@ -169,20 +183,20 @@ impl Table {
                 let weight = half(self.gauss[i / 2]);
                 by_gauss = by_gauss.plus(weight * before).plus(weight * after);
             }
-            // P_k is even or odd with k: one product serves both sides.
             // Lagrange's weights at either end ("What the ends hide").
             let [near, far] = self.ends[i].map(T::nearest);
             ends[0] = ends[0] + (near * before + far * after);
             ends[1] = ends[1] + (near * after + far * before);
+            // Polynomials are even or odd with their degree: one product serves both sides.
             let by_parity = [high + low, high - low];
-            // a_k = Σ w_i √(2k + 1) P_k(x_i) g(x_i) / 2, weights and halves being in the products already.
-            for (k, coefficient) in series.iter_mut().enumerate() {
+            // a_k = Σ w_i p_k(x_i) g(x_i) / 2, weights and halves being in the products already.
+            for (k, coefficient) in series[..degrees].iter_mut().enumerate() {
                 *coefficient = *coefficient + T::nearest(band[k]) * by_parity[k % 2];
             }
         }
 
-        // β1 and β2: four coefficients each, so that neither parity is missed.
-        let [lower, upper] = [&series[..4], &series[4..]]
+        // β1 and β2: four coefficients each, so that neither parity is missed; and the top band.
+        let [lower, upper, top] = [&series[..4], &series[4..BANDS], &series[BANDS..]]
             .map(|band| band.iter().fold(T::zero(), |sum, coefficient| sum + coefficient.abs()));
         // β2 / β1 ("Agreement by accident"); 1 where nothing falls.
         let decay = match upper {
@@ -190,9 +204,10 @@ impl Table {
             _ if upper.is_zero() => upper,
             _ => T::one(),
         };
-        // ê: the two rules apart, or what the bands expect at degree 2n, whichever is larger.
+        // ê: the two rules apart, what the series would leave at degree 2n, or what is found there ("Agreement by accident").
         let apart = (by_all.value() - by_gauss.value()).abs();
-        let difference = if upper.is_finite() { apart.max(upper * decay) } else { T::infinity() };
+        let difference =
+            if (upper + top).is_finite() { apart.max(upper * decay).max(top) } else { T::infinity() };
         // Of an infinite value the sum is NaN, too.
         let value = match stretch.widths(by_all.value()) {
             value if value.is_finite() => value,
@@ -232,75 +247,4 @@ fn noise<T: Real>(values: &[T], size: T, stretch: Stretch<T>) -> T {
     };
     // 10 u ∫ |g| + 8 u X Σ |g(x_(i+1)) - g(x_i)|, with 2u = epsilon ("Rounding").
     stretch.widths(five * epsilon * size + floor) + four * variation * stretch.magnitude() + floor
-}
-
-/// Returns the factors that turn the values of one side into two bands of the Legendre series, the coefficients of
-/// degrees `n - 3` to `n` and of four up to `(3n + 1) / 2`: the highest that Kronrod's rule finds without a share of
-/// lower ones, as the product of two polynomials of that degree is one that it integrates.
-///
-/// A coefficient is that of the orthonormal polynomial `√(2k + 1) P_k(x)`. Degree `k` stands in place `k % 4` of its
-/// band, so that the parity of the place is that of the polynomial.
-const fn bands<const N: usize>(nodes: &[f64; N]) -> [[f64; 8]; N] {
-    let mut result = [[0.0; 8]; N];
-    let (low, high) = (N - 1, (3 * N - 2) / 2);
-    let mut i = 0;
-    while i < N {
-        // (k + 1) P_{k+1} = (2k + 1) x P_k - k P_{k-1}
-        let (mut previous, mut current, mut k) = (0.0, 1.0, 0);
-        while k <= high {
-            let value = square_root((2 * k + 1) as f64) * current;
-            // Of either band the last four stay.
-            result[i][if k <= low { k % 4 } else { 4 + k % 4 }] = value;
-            let next = ((2 * k + 1) as f64 * nodes[i] * current - k as f64 * previous) / (k + 1) as f64;
-            (previous, current, k) = (current, next, k + 1);
-        }
-        i += 1;
-    }
-    result
-}
-
-/// Returns the weights that carry the polynomial through all values on to the end at 1: of the nodes `x` and `-x`, the
-/// Lagrange polynomials `∏ (1 - x_j) / (x - x_j)` over the other nodes.
-const fn ends<const N: usize>(nodes: &[f64; N]) -> [[f64; 2]; N] {
-    let mut result = [[0.0; 2]; N];
-    let mut i = 0;
-    while i < N {
-        let x = nodes[i];
-        let (mut near, mut far, mut j) = (1.0, 1.0, 0);
-        while j < N {
-            let y = nodes[j];
-            // The nodes of the same sign.
-            if j != i {
-                near *= (1.0 - y) / (x - y);
-                far *= (1.0 - y) / (-x - y);
-            }
-            // The mirrored node, but for the middle one, which is its own.
-            if j + 1 < N {
-                if j == i {
-                    // Of a node the other one is its mirror image.
-                    near *= (1.0 + y) / (x + y);
-                    far *= (1.0 - y) / (-x - y);
-                } else {
-                    near *= (1.0 + y) / (x + y);
-                    far *= (1.0 + y) / (-x + y);
-                }
-            }
-            j += 1;
-        }
-        result[i] = [near, far];
-        i += 1;
-    }
-    result
-}
-
-/// Returns the square root by Heron's method, from above, for the compiler.
-const fn square_root(x: f64) -> f64 {
-    // At most 91, by K61: the first steps halve the excess, the last ones square it away.
-    let mut root = x;
-    let mut step = 0;
-    while step < 12 {
-        root += (x / root - root) / 2.0;
-        step += 1;
-    }
-    root
 }

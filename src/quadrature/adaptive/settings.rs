@@ -14,9 +14,9 @@ use crate::real::Real;
 ///
 /// **Error**: [`Estimate::error`] is an estimate, not a proof. It holds in every case of the battery (measured,
 /// [`guarantees`](crate::book::guarantees)). It takes the values of the integrand to be within 2 ulp of exact, at
-/// arguments within 2 ulp of those given. Kinks and jumps of the size of the integrand are seen wherever they are, also
-/// beside the ends of panels (measured: 0 false claims of 20 000 places, six families); small ones beside a smooth part
-/// can be claimed too low (up to a fifth of the places by `K15`). No method that only evaluates can know of a peak that
+/// arguments within 2 ulp of those given. Kinks and jumps are seen wherever they are, also beside the ends of panels and
+/// where they are small beside a smooth part (measured: 0 false claims of 20 000 places, twelve families); small singular
+/// points inside can be claimed too low (up to 2.5 % of the places by `K15`). No method that only evaluates can know of a peak that
 /// none of its nodes meets: give break points where the integrand is known to change.
 ///
 /// ```

@@ -139,7 +139,7 @@ impl Pictures<'_> {
                 format!(": {:+.4} ± {:.4}", difference.value(), difference.standard_error())
             });
             let panel = MapPanel::new(grid, &label, self.mean_in_words(index) + &against)?;
-            maps.push(panel.with_path(poses.iter().map(Pose::position).collect()));
+            maps.push(panel.with_path(self.timed(poses)));
         }
         let described = "The map of each trajectory, with the path of the laser.".to_owned();
         Ok(Sheet::new(panels(&maps, 2), described).file().into_bytes())
@@ -167,11 +167,15 @@ impl Pictures<'_> {
         let top = self.scale();
         let maps = self.measured.iter().zip(&self.common.poses).filter_map(|(measured, poses)| {
             let (grid, layer) = measured.pictures.as_ref()?;
-            let times = self.common.scans.iter().map(|scan| scan.time() - self.common.scans[0].time());
-            let path = TimedPath::new(times.zip(poses.iter().map(Pose::position)).collect());
-            Some(ConflictMap::new(grid, layer, top, path))
+            Some(ConflictMap::new(grid, layer, top, self.timed(poses)))
         });
         maps.collect()
+    }
+
+    /// Returns the path of the laser over the scans of all trajectories.
+    fn timed(&self, poses: &[Pose]) -> TimedPath {
+        let times = self.common.scans.iter().map(|scan| scan.time() - self.common.scans[0].time());
+        TimedPath::new(times.zip(poses.iter().map(Pose::position)).collect())
     }
 
     fn scale(&self) -> f64 {

@@ -76,7 +76,11 @@ fn every_command_has_a_manual_page() {
     for (name, words) in [
         ("meaninfo.1", &["meaninfo\\-trajectory(1)", ".TH meaninfo 1"][..]),
         ("meaninfo-map.1", &["\\-\\-heat\\-map", "\\-\\-unknown", "FILE", ".SH OPTIONS"]),
-        ("meaninfo-trajectory.1", &["\\-\\-mount", "TUM text"]),
+        ("meaninfo-trajectory.1", &["\\-\\-mount", "TUM text", ".SH \"EXIT STATUS\"", "2 refused"]),
+        (
+            "meaninfo-bag.1",
+            &[concat!(".TH meaninfo-bag 1  \"meaninfo ", env!("CARGO_PKG_VERSION"), "\" meaninfo")],
+        ),
     ] {
         for word in words {
             assert!(page(name).contains(word), "{name}: {word}\n{}", page(name));

@@ -7,6 +7,11 @@ use clap::{Args, CommandFactory};
 use clap_mangen::Man;
 use std::path::PathBuf;
 
+/// What each page says at its end.
+const EXIT_STATUS: &str = ".SH \"EXIT STATUS\"\n\
+    0 is done, 1 done and a check did not hold (paper, check), 2 refused, with a line on standard error for each thing that \
+    is wrong.\n";
+
 /// The arguments of `meaninfo man`.
 #[derive(Args, Debug)]
 pub struct Arguments {
@@ -33,9 +38,11 @@ fn pages() -> Result<Vec<(String, Vec<u8>)>, Failure> {
     all.build();
     let each = std::iter::once(all.clone()).chain(all.get_subcommands().cloned());
     let page = |command| {
-        let man = Man::new(command);
+        let man =
+            Man::new(command).source(concat!("meaninfo ", env!("CARGO_PKG_VERSION"))).manual("meaninfo");
         let mut page = Vec::new();
         man.render(&mut page).map_err(|error| Failure::StandardOutput(error.to_string()))?;
+        page.extend_from_slice(EXIT_STATUS.as_bytes());
         Ok((man.get_filename(), page))
     };
     each.map(page).collect()

@@ -14,6 +14,7 @@
 //! (`ROBOTLASER1`), of the log (`PARAM robot_front_laser_max`), or else [`carmen::MAXIMUM_RANGE`]. The last two rows are
 //! those of ROS (REP 117) and of GMapping. Of the messages of bags finite ranges above the sensor's own greatest are nothing
 //! (REP 117), and the greatest itself is no return: drivers wrote it for that before the REP, which counts it as a return.
+//! Where a message has an infinite greatest range and the caller none, infinity is nothing, too.
 
 pub mod carmen;
 mod kept;

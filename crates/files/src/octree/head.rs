@@ -7,7 +7,7 @@ use std::io::BufRead;
 /// The first lines of the two kinds of files.
 const FULL: &str = "# Octomap OcTree file";
 const BINARY: &str = "# Octomap OcTree binary file";
-/// The first bytes of a `.bt` file without a head of text, before OctoMap 1.0: the kind of tree.
+/// The first bytes of a `.bt` file from before OctoMap had heads of text: the kind of tree.
 const OLD_BINARY: [u8; 4] = [3, 0, 0, 0];
 
 /// What a head says.

@@ -10,9 +10,10 @@
 //! | `ODO_UPDATE n (x y θ w)… t` | its number of particles must be that of the others; poses between scans are passed over |
 //! | `ODOM`, `FRAME`, `SIMULATOR_POS`, `ENTROPY`, `COMMENT`, other `PARAM`, `#` and an empty line | nothing: passed over |
 //!
-//! The number of particles never changes: GMapping's programs ask for no other, though its library could. A last line without
-//! an end is left out where its last number may be cut. Lines of any other first word are passed over and counted. The first scan of a run is not in the log: GMapping writes a
-//! scan only after it was matched against a map.
+//! Where the number of beams is even, GMapping itself has none at 0: those from there on lie a step further on than CARMEN's. The
+//! number of particles never changes: GMapping's programs ask for no other, though its library could. A last line without an end
+//! is left out where its last number may be cut. Lines of any other first word are passed over and counted. The first scan of a
+//! run is not in the log: GMapping writes a scan only after it was matched against a map.
 //!
 //! The logarithms add up from one resampling to the next. What GMapping weighs particles by is
 //! `exp((w - max w) / (g n))` for `n` particles ([`FilterStep::weights`]): without the divisor, which tempers them, one

@@ -6,7 +6,13 @@ pub(crate) fn octree() -> Vec<(&'static str, Vec<u8>)> {
     let small = Node::small();
     let full = small.full(false);
     let claims_more = String::from_utf8_lossy(&small.binary()).replace("size 8", "size 18446744073709551615");
+    // A head from before there were any of text: 3, the side, the number of nodes.
+    let binary = small.binary();
+    let nodes = binary.windows(5).position(|five| five == b"data\n").map_or(0, |data| data + 5);
+    let old =
+        [&3_u32.to_le_bytes()[..], &0.05_f64.to_le_bytes(), &8_u32.to_le_bytes(), &binary[nodes..]].concat();
     vec![
+        ("old_binary", old),
         ("full", full.clone()),
         ("coloured", small.full(true)),
         ("binary", small.binary()),

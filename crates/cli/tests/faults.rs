@@ -126,7 +126,7 @@ fn the_port_without_faults_passes() {
 #[test]
 fn every_planted_fault_is_named() {
     let faults = faults();
-    assert!(faults.len() > 190);
+    assert!(faults.len() > 200);
     if !has_python() {
         return;
     }

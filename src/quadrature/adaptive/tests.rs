@@ -165,12 +165,11 @@ fn the_top_band_is_of_the_highest_degrees() {
         let highest = rows.len();
         rows.extend((0..=2 * n - top).map(|k| half.iter().map(|&x| legendre(k as u32, x)).collect()));
         let parity = |row: usize| if row < highest { row % 2 } else { (row - highest) % 2 };
-        for j in 0..highest {
-            for k in 0..rows.len() {
+        for (j, row) in rows[..highest].iter().enumerate() {
+            for (k, other) in rows.iter().enumerate() {
                 // Both sides, halved; the middle node counts once, and products of unlike parity add to 0.
-                let product: f64 = (0..=n)
-                    .map(|i| weights[i] * rows[j][i] * rows[k][i] * if i == n { 0.5 } else { 1.0 })
-                    .sum();
+                let product: f64 =
+                    (0..=n).map(|i| weights[i] * row[i] * other[i] * if i == n { 0.5 } else { 1.0 }).sum();
                 let product = if parity(j) == parity(k) { product } else { 0.0 };
                 let exact = f64::from(u8::from(j == k));
                 let rounding = 8.0 * f64::from(61 * 61_u16) * f64::EPSILON;

@@ -1,11 +1,10 @@
 //! A small number `e` in the entropy of a cell: added within the logarithms, `-p log2(p + e) - (1-p) log2(1-p + e)`, or
-//! the end of the interval `[e, 1 - e]` that occupancies are clamped to. Both are monotone in `e`, so each answer gives
-//! it by bisection; the value that fits most answers is taken.
+//! within one of them, or the end of the interval `[e, 1 - e]` that occupancies are clamped to. All are monotone in `e`,
+//! so each answer gives it by bisection; the value that fits most answers is taken.
 
+use super::measure::{Measure, occupancies, width};
 use super::{Answer, Candidate, Case, FloatFormat, LEAST, answers, cause};
 use crate::output::short;
-use mean_information_report::hex_float;
-use mean_information_report::protocol::{Argument, Arguments};
 use std::f64::consts::LN_2;
 
 /// The number of answers that `e` is fitted to, and the most cells of a map among them.
@@ -20,24 +19,32 @@ const ROUND: f64 = 1e-3;
 /// The mistakes.
 #[derive(Clone, Copy)]
 enum Mistake {
+    /// Within both logarithms, that of `p` alone, that of `1 - p` alone.
     Added,
+    AddedToOccupied,
+    AddedToFree,
     Clamped,
 }
+
+const MISTAKES: [Mistake; 4] =
+    [Mistake::Added, Mistake::AddedToOccupied, Mistake::AddedToFree, Mistake::Clamped];
 
 impl Mistake {
     /// Returns the entropy of a cell in bits.
     fn entropy(self, p: f64, e: f64) -> f64 {
-        let (p, added) = match self {
-            Self::Added => (p, e),
-            Self::Clamped => (p.clamp(e, 1.0 - e), 0.0),
+        let (p, [occupied, free]) = match self {
+            Self::Added => (p, [e, e]),
+            Self::AddedToOccupied => (p, [e, 0.0]),
+            Self::AddedToFree => (p, [0.0, e]),
+            Self::Clamped => (p.clamp(e, 1.0 - e), [0.0, 0.0]),
         };
-        let term = |q: f64| if q > 0.0 { -q * libm::log2(q + added) } else { 0.0 };
-        term(p) + term(1.0 - p)
+        let term = |q: f64, added: f64| if q > 0.0 { -q * libm::log2(q + added) } else { 0.0 };
+        term(p, occupied) + term(1.0 - p, free)
     }
 
     fn name(self) -> &'static str {
         match self {
-            Self::Added => "epsilon-in-logarithm",
+            Self::Added | Self::AddedToOccupied | Self::AddedToFree => "epsilon-in-logarithm",
             Self::Clamped => "clamped",
         }
     }
@@ -50,40 +57,16 @@ impl Mistake {
                 "adds {e} within the logarithm, log2(p + {e}){nats}: the entropy of p = 1 is negative then, that of \
                  small p wrong; 0 log 0 is 0, without it"
             ),
+            Self::AddedToOccupied | Self::AddedToFree => {
+                let (one, certain) = if matches!(self, Self::AddedToFree) { ("1 - p", 0) } else { ("p", 1) };
+                format!(
+                    "adds {e} within one of the logarithms, log2({one} + {e}){nats}: the entropy of p = {certain} is \
+                     negative then; 0 log 0 is 0, without it"
+                )
+            }
             Self::Clamped => format!(
                 "clamps occupancies to [{e}, 1 - {e}]{nats}: p = 0 and 1 are certain, and all p below {e} get one answer"
             ),
-        }
-    }
-}
-
-/// What an operation makes of the entropies of its cells.
-#[derive(Clone, Copy)]
-enum Measure {
-    Entropy,
-    Information,
-    MeanInformation,
-}
-
-impl Measure {
-    fn of(op: &str) -> Option<Self> {
-        match op {
-            "cell.entropy" | "map.entropy" => Some(Self::Entropy),
-            "cell.information" | "map.information" => Some(Self::Information),
-            "map.mean_information" => Some(Self::MeanInformation),
-            _ => None,
-        }
-    }
-
-    fn value(self, cells: &[f64], entropy: impl Fn(f64) -> f64) -> f64 {
-        let sum = |value: &dyn Fn(f64) -> f64| cells.iter().map(|&p| value(p)).sum::<f64>();
-        match self {
-            Self::Entropy => sum(&entropy),
-            Self::Information => sum(&|p| 1.0 - entropy(p)),
-            Self::MeanInformation => {
-                let observed = cells.iter().filter(|p| **p != 0.5).count();
-                sum(&|p| if p == 0.5 { 0.0 } else { 1.0 - entropy(p) }) / observed.max(1) as f64
-            }
         }
     }
 }
@@ -93,7 +76,7 @@ pub(super) fn mistakes(op: &str, cases: &[Case<'_>]) -> Vec<Candidate> {
     let Some(measure) = Measure::of(op) else { return Vec::new() };
     let answers = answers(cases, occupancies);
     let mut found = Vec::new();
-    for mistake in [Mistake::Added, Mistake::Clamped] {
+    for mistake in MISTAKES {
         // In bits, and in nats.
         for unit in [1.0, LN_2] {
             let model = |answer: &Answer<Vec<f64>>, e: f64| {
@@ -107,25 +90,6 @@ pub(super) fn mistakes(op: &str, cases: &[Case<'_>]) -> Vec<Candidate> {
         }
     }
     found
-}
-
-/// Returns the cells of a map, or the one cell.
-fn occupancies(arguments: &Arguments) -> Option<Vec<f64>> {
-    let float = |text: &String| hex_float::parse::<f64>(text).ok();
-    match (arguments.get("p"), arguments.get("cells")) {
-        (Some(Argument::Float(p)), _) => Some(vec![float(p)?]),
-        (_, Some(Argument::List(cells))) => cells.iter().map(float).collect(),
-        _ => None,
-    }
-}
-
-/// Returns how far floats added up one by one may be from a sum `value`.
-fn width(answer: &Answer<Vec<f64>>, value: f64) -> f64 {
-    let epsilon = match answer.format {
-        FloatFormat::F32 => f64::from(f32::EPSILON),
-        FloatFormat::F64 => f64::EPSILON,
-    };
-    epsilon * answer.asked.len() as f64 * (3.0 + value.abs())
 }
 
 /// Returns the `e` that fits most of the wrong answers that are furthest off.
@@ -179,6 +143,8 @@ mod tests {
             (Mistake::Added, &[1.0][..]),
             (Mistake::Added, &[0.3]),
             (Mistake::Added, &[0.25, 1e-12, 0.5, 0.9375]),
+            (Mistake::AddedToOccupied, &[1.0]),
+            (Mistake::AddedToFree, &[0.0, 0.75]),
             (Mistake::Clamped, &[0.0]),
             (Mistake::Clamped, &[1e-9, 0.3, 1.0]),
         ] {
@@ -195,6 +161,8 @@ mod tests {
     fn the_mistakes_are_those_of_the_chapter() {
         let near = |a: f64, b: f64| (a - b).abs() < 1e-14;
         assert!(near(Mistake::Added.entropy(1.0, 1e-9), -1.4426950e-9));
+        assert!(near(Mistake::AddedToOccupied.entropy(1.0, 1e-9), -1.4426950e-9));
+        assert!(near(Mistake::AddedToFree.entropy(1.0, 1e-9), 0.0));
         assert!(near(Mistake::Added.entropy(0.25, 0.0), 0.8112781244591328));
         assert!(near(Mistake::Clamped.entropy(1e-8, 1e-7), 2.469619163220e-6));
         assert_eq!(Mistake::Clamped.entropy(1e-8, 1e-7), Mistake::Clamped.entropy(0.0, 1e-7));

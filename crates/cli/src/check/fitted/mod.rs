@@ -1,12 +1,16 @@
-//! Mistakes with a number in them, which no list of traps can hold. The number is fitted to some answers; the mistake is
-//! a fact if the other answers have its values, too.
+//! Mistakes of more forms, or with a number in them, than a list of traps can hold. A number is fitted to some answers;
+//! the mistake is a fact if the other answers have its values, too.
 //!
 //! | module | mistakes |
 //! |---|---|
 //! | `cells` | a small number added within the logarithm, occupancies clamped to an interval |
+//! | `forms` | signs, tables, half precision, one distribution: what has no number to fit |
+//! | `measure` | what operations make of the entropies of their cells |
 //! | `sums` | an integral taken for a sum of some parts |
 
 mod cells;
+mod forms;
+mod measure;
 mod sums;
 
 use super::candidate::{Candidate, Case};
@@ -27,6 +31,7 @@ struct Answer<A> {
 /// Returns the mistakes that fit the answers to an operation.
 pub(super) fn fitted(op: &str, cases: &[Case<'_>]) -> Vec<Candidate> {
     let mut found = cells::mistakes(op, cases);
+    found.extend(forms::mistakes(op, cases));
     found.extend(sums::mistakes(op, cases));
     found
 }

@@ -1,4 +1,5 @@
-"""What the aggregate costs, for `docs/fleets.md`: `python fleet.py TILES...`, tiles of 64 x 64 percentages, 100 maps."""
+"""What the aggregate costs in processor time, for `docs/fleets.md`: `python fleet.py TILES...`, tiles of 64 x 64 percentages of
+100 maps."""
 
 import sys
 import tempfile
@@ -31,12 +32,12 @@ def write(folder, count):
 
 
 def seconds(context, query):
-    """Return the least time of three runs."""
+    """Return the least processor time of three runs."""
     times = []
     for _ in range(3):
-        begun = time.perf_counter()
+        begun = time.process_time()
         context.sql(query).collect()
-        times.append(time.perf_counter() - begun)
+        times.append(time.process_time() - begun)
     return min(times)
 
 

@@ -55,7 +55,7 @@ fi
 
 # Internal precision: integers here have up to 256 bits. A denominator is 1 plus something that is not negative.
 for script in proofs/*.gappa; do
-    case "$script" in proofs/lanes_*) continue ;; esac
+    case "$script" in proofs/lanes_* | proofs/log_odds_*) continue ;; esac
     wanted "$(basename "$script")" || continue
     timeout 60 gappa -Eprecision=300 -Eno-auto-dichotomy -Wno-null-denominator "$script" > "$output" 2>&1
     status=$?
@@ -76,13 +76,16 @@ rows() {
     verdict "$1" $?
 }
 
-# The vector kernels: each row of their tables, then their scripts for each value and binade of distances.
+# The vector kernels: each row of their tables, then their scripts for each value and binade of distances, or interval of log-odds.
 rows rows.sollya "${ROWS:-}" lanes::tests::rows_for_the_proof 57630
 rows log_odds_rows.sollya "" log_odds::tests::rows_for_the_proof 89782
-for script in proofs/lanes_*.gappa; do
+for script in proofs/lanes_*.gappa proofs/log_odds_*.gappa; do
     wanted "$(basename "$script")" || continue
     # The ranges of all scripts, made once.
-    [ -n "${REGIONS:-}" ] || { sollya proofs/lanes.sollya < /dev/null > "$ranges" 2>&1; export REGIONS="$ranges"; }
+    [ -n "${REGIONS:-}" ] || {
+        for certificate in lanes log_odds_regions; do sollya "proofs/$certificate.sollya" < /dev/null; done > "$ranges" 2>&1
+        export REGIONS="$ranges"
+    }
     proofs/regions.py "$script" > "$output" 2>&1
     verdict "$(basename "$script")" $?
 done

@@ -39,6 +39,7 @@ def both(file, script, quotation, definition):
     return [(file, *quotation), (f"proofs/{script}.gappa", *quotation), (f"proofs/{script}.gappa", *definition)]
 
 
+REGIONS = ["lanes.sollya", "log_odds_regions.sollya"]
 KERNEL, FORMAT = "src/rounded/lanes/kernel.rs", "src/rounded/lanes/format.rs"
 LANES = [f"lanes_{format}{fused}" for format in ("f32", "f64") for fused in ("", "_fused")]
 
@@ -58,6 +59,20 @@ def lanes_error(format, error, smaller):
     """The bound of a format made smaller in the source and in its scripts."""
     edits = [(FORMAT, f", {error});", f", {smaller});")]
     return edits + [(f"proofs/{script}.gappa", error, smaller) for script in LANES if format in script]
+
+
+DOUBLE, SINGLE = (f"src/rounded/lanes/log_odds/{name}.rs" for name in ("double", "single"))
+
+
+def of_log_odds(file, quotation, in_steps=(), fused=()):
+    """A line of the kernels of log-odds in both scripts of its format, and its translation in either, each as (old, new)."""
+    format = "f64" if file == DOUBLE else "f32"
+    edits = [(file, *quotation)]
+    for script, translation in ((f"log_odds_{format}", in_steps), (f"log_odds_{format}_fused", fused)):
+        edits.append((f"proofs/{script}.gappa", *quotation))
+        if translation:
+            edits.append((f"proofs/{script}.gappa", *translation))
+    return edits
 
 
 FUSED = [script for script in LANES if "fused" in script]
@@ -248,6 +263,36 @@ MUTATIONS = [
      [("proofs/lanes_f64_fused.gappa", "y = rnd(h * inverse);", "y = h * inverse;")]),
     ("lanes.sollya: a coefficient 1/41", "lanes_f64.gappa",
      [("proofs/lanes.sollya", "-x * (1 + x^2)/40", "-x * (1 + x^2)/41")]),
+    ("lanes of log-odds: ERROR of f64 7e-20, in both", "log_odds_f64.gappa",
+     of_log_odds(DOUBLE, ("1.2e-19; // ", "7e-20; // "), ("rnd(1.2e-19)", "rnd(7e-20)"), ("rnd(1.2e-19)", "rnd(7e-20)"))),
+    ("lanes of log-odds: ERROR of f32 3e-12, in both", "log_odds_f32.gappa",
+     of_log_odds(SINGLE, ("4e-12; // ", "3e-12; // "), ("rnd(4e-12)", "rnd(3e-12)"), ("rnd(4e-12)", "rnd(3e-12)"))),
+    ("lanes of log-odds: the value's rest left out, in both", "log_odds_f64_fused.gappa",
+     of_log_odds(DOUBLE, ("products + (lost + value_low)", "products + (lost + second)"),
+                 *[("tail = rnd(products + rnd(lost + value_low));", "tail = rnd(products + rnd(lost + second));")] * 2)),
+    ("lanes of log-odds: a_6 h for a_7 h, in both", "log_odds_f64.gappa",
+     of_log_odds(DOUBLE, ("fused(h, a7, a6)", "fused(h, a6, a6)"), ("rnd(rnd(h * a7) + a6)", "rnd(rnd(h * a6) + a6)"),
+                 ("rnd(h * a7 + a6)", "rnd(h * a6 + a6)"))),
+    ("lanes of log-odds: the slope not split, in both", "log_odds_f64.gappa",
+     of_log_odds(DOUBLE, ("(slope.head() * h, ", "(slope * h, "), ("first = rnd(cut(slope) * h);", "first = rnd(slope * h);"))),
+    ("lanes of log-odds: ln 2 by its first part, in both", "log_odds_f32_fused.gappa",
+     of_log_odds(SINGLE, ("fused(k, -LN_2_LOW, a - k * LN_2_HIGH)", "fused(k, -LN_2_HIGH, a)"),
+                 ("r = rnd(rnd(k * -LN_2_LOW) + rnd(a - rnd(k * LN_2_HIGH)));", "r = rnd(rnd(k * -LN_2_HIGH) + a);"),
+                 ("r = rnd(k * -LN_2_LOW + rnd(a - rnd(k * LN_2_HIGH)));", "r = rnd(k * -LN_2_HIGH + a);"))),
+    ("lanes of log-odds: 1 / (1 + e) by the other polynomial, in both", "log_odds_f32.gappa",
+     of_log_odds(SINGLE, ("inverse, horner::<FUSED, _>(&LOG, e))", "inverse, inverse)"),
+                 *[("inverse) + horner_LOG));", "inverse) + inverse));"), ("inverse + horner_LOG));", "inverse + inverse));")])
+     + [(f"proofs/log_odds_f32{fused}.gappa", "\nhorner_LOG = ", "\n# Not used.\nhorner_LOG = ") for fused in ("", "_fused")]),
+    ("lanes/log_odds/double.rs alone: a_7 for a_6", "source", [(DOUBLE, "fused(h, a7, a6)", "fused(h, a6, a7)")]),
+    ("lanes/log_odds/single.rs alone: a smaller ERROR", "source", [(SINGLE, "f64 = 4e-12", "f64 = 3.9e-12")]),
+    ("lanes/log_odds/polynomials.rs alone: a digit", "source",
+     [("src/rounded/lanes/log_odds/polynomials.rs", "0.99999999999976230125042775", "0.99999999999976230125042774")]),
+    ("log_odds_f64.gappa alone: a smaller error of the rows' coefficients assumed", "source",
+     [("proofs/log_odds_f64.gappa", "|ratio_2| <= 1b-66", "|ratio_2| <= 1b-67")]),
+    ("log_odds_f32.gappa alone: a smaller error of a polynomial assumed", "source",
+     [("proofs/log_odds_f32.gappa", "<= 7.918e-13", "<= 7.9e-13")]),
+    ("log_odds_regions.sollya of lanes: t' = 2w / 3", "log_odds_f64.gappa",
+     [("proofs/log_odds_regions.sollya", "(1 - x^2) / 2 * diff", "(1 - x^2) / 3 * diff")]),
     ("rows.sollya: the error of f32 values 2^-25", "rows.sollya",
      [("proofs/rows.sollya", 'certify("f32", "value", 2^(-24));', 'certify("f32", "value", 2^(-25));')]),
     ("rows: the last bit of one value", "rows.sollya", [("rows", "9704117", "9704107")]),
@@ -267,6 +312,8 @@ def failures(edits, test, rows, regions):
     readers = {Path(file).name for file, _, _ in edits if file.endswith(".gappa")} | {"source"}
     if any(file == "proofs/lanes.sollya" for file, _, _ in edits):
         readers.add("lanes_f64.gappa")
+    if any(file == "proofs/log_odds_regions.sollya" for file, _, _ in edits):
+        readers.add("log_odds_f64.gappa")
     if any("rows" in file for file, _, _ in edits):
         readers.add("rows.sollya")
     if any("constants" in file for file, _, _ in edits):
@@ -284,7 +331,7 @@ def failures(edits, test, rows, regions):
                 sys.exit(f"proofs/mutate.py: {file} no longer contains: {old}")
             path.write_text(text.replace(old, new))
         environment = {**os.environ, "SOURCE_TEST": test, "ROWS": f"{folder}/rows"}
-        if not any(file == "proofs/lanes.sollya" for file, _, _ in edits):
+        if not any(Path(file).name in REGIONS for file, _, _ in edits):
             environment["REGIONS"] = regions
         command = [Path(folder) / "proofs/check.sh", *(sorted(readers) if edits else [])]
         result = subprocess.run(command, env=environment, capture_output=True, text=True)
@@ -304,7 +351,9 @@ def main():
             command = ["cargo", "test", "--quiet", "--lib", "lanes::tests::rows_for_the_proof", "--", "--ignored", "--nocapture"]
             subprocess.run(command, cwd=ROOT, check=True, stdout=file, stderr=subprocess.DEVNULL)
         with open(regions, "w") as file:
-            subprocess.run(["sollya", ROOT / "proofs/lanes.sollya"], stdin=subprocess.DEVNULL, stdout=file)
+            for name in REGIONS:
+                subprocess.run(["sollya", ROOT / "proofs" / name], stdin=subprocess.DEVNULL, stdout=file)
+                file.flush()
         sys.exit(run(chosen, lambda edits: failures(edits, test, rows, regions)))
 
 

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Runs the Gappa scripts of the vector kernels, once for each value and binade of distances.
+"""Runs the Gappa scripts of the vector kernels, once for each value and binade of distances or interval of log-odds.
 
     proofs/regions.py SCRIPT...
 
-`proofs/lanes.sollya` certifies the ranges of a region, which take the place of REGION in a script; VALUE is the name of
-the value, near, entropy or information. The kernel without entropies has no complements: there the goals that speak of
-them are left out. Prints the first region that fails, and ends with status 1 then. REGIONS may be a file of what
-lanes.sollya writes.
+`proofs/lanes.sollya` and `proofs/log_odds_regions.sollya` certify the ranges of a region, which take the place of REGION in a
+script; VALUE is the name of the value. The kernel of occupancies without entropies has no complements: there the goals that
+speak of them are left out, and so is a goal that ends with `# of` other values. Prints the first region that fails, and ends
+with status 1 then. REGIONS may be a file of what both write.
 """
 
 import os
@@ -17,31 +17,38 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-GAPPA = ["gappa", "-Eprecision=150", "-Eno-auto-dichotomy"]
-REGIONS = 124
+GAPPA = ["gappa", "-Eprecision=150", "-Eno-auto-dichotomy", "-Wno-null-denominator"]
+CERTIFICATES = {"lanes.sollya": 124, "log_odds_regions.sollya": 155}
+KERNELS = {"lanes_f32", "lanes_f64", "log_odds_f32", "log_odds_f64"}
 
 
 def regions():
-    """The regions as (format, value, ranges)."""
-    command = ["cat", os.environ["REGIONS"]] if "REGIONS" in os.environ else ["sollya", HERE / "lanes.sollya"]
-    output = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=300).stdout
-    lines = [line.split(" ", 2) for line in output.splitlines()]
-    if len(lines) != REGIONS or any(line[0] not in ("f32", "f64") for line in lines):
-        sys.exit(f"proofs/regions.py: lanes.sollya fails:\n{output[-2000:]}")
-    return lines
+    """The regions as (kernel, value, ranges)."""
+    if "REGIONS" in os.environ:
+        lines = Path(os.environ["REGIONS"]).read_text().splitlines()
+    else:
+        commands = [["sollya", HERE / name] for name in CERTIFICATES]
+        outputs = [subprocess.run(c, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=600) for c in commands]
+        lines = [line for output in outputs for line in output.stdout.splitlines()]
+    split = [line.split(" ", 2) for line in lines]
+    if len(split) != sum(CERTIFICATES.values()) or any(line[0] not in KERNELS for line in split):
+        sys.exit("\n".join(["proofs/regions.py: a certificate fails:", *lines[-20:]]))
+    return split
 
 
-def instance(script, value, ranges):
+def instance(script, kernel, value, ranges):
     """The script for a region."""
-    if value == "information":
+    script = "\n".join(
+        line for line in script.split("\n") if " /\\ # of " not in line or value in line.split(" # of ")[1].split(", "))
+    if value == "information" and kernel.startswith("lanes"):
         script = re.sub(r" /\\\n    complement \+ (?:lower|upper)[^/\n]*[^/\n ]", "", script)
     return script.replace("REGION", ranges).replace("VALUE", value)
 
 
-def failure(script, value, ranges):
+def failure(script, kernel, value, ranges):
     """What Gappa says of a region, nothing if all is well."""
-    text = instance(script, value, ranges)
-    result = subprocess.run(GAPPA, input=text, capture_output=True, text=True, timeout=120)
+    text = instance(script, kernel, value, ranges)
+    result = subprocess.run(GAPPA, input=text, capture_output=True, text=True, timeout=600)
     said = [line for line in (result.stdout + result.stderr).splitlines() if not line.startswith("Warning: re")]
     return "\n".join([value, ranges, *said]) if result.returncode or said else None
 
@@ -51,9 +58,9 @@ def main():
     ranges = regions()
     for path in map(Path, sys.argv[1:]):
         script = path.read_text()
-        chosen = [region for region in ranges if region[0] in path.stem]
+        chosen = [region for region in ranges if path.stem.startswith(region[0])]
         with ThreadPoolExecutor(2) as pool:
-            results = pool.map(lambda region: failure(script, *region[1:]), chosen)
+            results = pool.map(lambda region: failure(script, *region), chosen)
             first = next((said for said in results if said), None)
             pool.shutdown(cancel_futures=True)
         if first or not chosen:

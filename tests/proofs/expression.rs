@@ -221,6 +221,7 @@ impl Expression {
                     format!("rnd({} * {} + {})", of(a), of(b), of(c)).replace("+ -", "- ")
                 }
                 ("fused", [a, b, c]) => format!("rnd(rnd({} * {}) + {})", of(a), of(b), of(c)),
+                ("horner", [Name(coefficients), Name(_)]) => format!("horner_{coefficients}"),
                 ("unit", [a, b]) => format!("unit_{}_{}", of(a), of(b)).replace('-', "minus_"),
                 _ => format!("no rule for {name}"),
             },
@@ -284,5 +285,17 @@ pub(crate) fn horner(name: &str, count: usize, x: &str, scale: &str) -> String {
     (0..count - 1).rev().fold(last, |sum, i| {
         let sum = if i == count - 2 { sum } else { format!("({sum})") };
         format!("{name}_{i} + floor({sum} * {x} * 1b-{scale})")
+    })
+}
+
+/// Horner's rule in floating point, each step rounded once or twice, for coefficients named `name_0`, `name_1`, ....
+pub(crate) fn rounded_horner(name: &str, count: usize, x: &str, fused: bool) -> String {
+    let last = format!("{name}_{}", count - 1);
+    (0..count - 1).rev().fold(last, |sum, i| {
+        if fused {
+            format!("rnd({sum} * {x} + {name}_{i})")
+        } else {
+            format!("rnd(rnd({sum} * {x}) + {name}_{i})")
+        }
     })
 }

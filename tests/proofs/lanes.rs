@@ -1,31 +1,50 @@
-//! The Gappa scripts of the vector kernels, `proofs/lanes_*.gappa` and `proofs/sum_*.gappa`: every statement of `series`,
-//! `value`, `bounds`, `complements` and of `Sum` is quoted, and every definition under a quotation is its translation into rounded operations.
+//! The Gappa scripts of the vector kernels, `proofs/lanes_*.gappa`, `proofs/sum_*.gappa` and `proofs/log_odds_*.gappa`: every
+//! statement of the functions that they speak of is quoted, and every definition under a quotation is its translation into rounded
+//! operations.
 //!
 //! In a script of a format, fused or not, only one branch of `if FUSED` and of `if T::TERMS > 3` is there.
 
-use crate::expression::expressions;
+use crate::expression::{expressions, rounded_horner};
 use crate::source::{statements, without_comments};
-use crate::{Quotation, quotations, scripts};
+use crate::{Quotation, log_odds, quotations, scripts};
 use std::collections::BTreeMap;
 use std::fs;
 
-/// The functions that a script quotes.
-fn quoted_by(script: &str) -> &'static [&'static str] {
+const KERNEL: &str = "kernel";
+const DOUBLE: &str = "log_odds/double";
+const SINGLE: &str = "log_odds/single";
+
+/// The functions that a script quotes, each with its file.
+fn quoted_by(script: &str) -> &'static [(&'static str, &'static str)] {
     if script.starts_with("sum_") {
-        &["high_origin", "low_origin", "add"]
+        &[(KERNEL, "high_origin"), (KERNEL, "low_origin"), (KERNEL, "add")]
+    } else if script.starts_with("log_odds_f64") {
+        &[(DOUBLE, "value"), (DOUBLE, "bounds"), (KERNEL, "complements")]
+    } else if script.starts_with("log_odds_f32") {
+        &[(SINGLE, "exp_minus"), (SINGLE, "value"), (SINGLE, "bounds")]
     } else {
-        &["value", "series", "bounds", "complements"]
+        &[(KERNEL, "value"), (KERNEL, "series"), (KERNEL, "bounds"), (KERNEL, "complements")]
     }
 }
 
-fn kernel() -> String {
-    fs::read_to_string("src/rounded/lanes/kernel.rs").expect("the source is there")
+/// The text of a file of the vector kernels.
+pub(crate) fn source_of(file: &str) -> String {
+    fs::read_to_string(format!("src/rounded/lanes/{file}.rs")).expect("the source is there")
 }
 
-/// The statements of a function of the kernel.
-fn statements_of(function: &str) -> Vec<String> {
-    let code = without_comments(&kernel());
-    let names = ["<T: Lane", "("].map(|after| format!("fn {function}{after}"));
+/// The file that has the lines which a script quotes apart from functions.
+fn fragments_of(script: &str) -> &'static str {
+    match script {
+        _ if script.starts_with("log_odds_f64") => DOUBLE,
+        _ if script.starts_with("log_odds_f32") => SINGLE,
+        _ => "format",
+    }
+}
+
+/// The statements of a function of the kernels.
+fn statements_of(file: &str, function: &str) -> Vec<String> {
+    let code = without_comments(&source_of(file));
+    let names = ["<T: Lane", "<const FUSED: bool>(", "("].map(|after| format!("fn {function}{after}"));
     let (before, text) = names.iter().find_map(|name| code.split_once(name)).expect("a function");
     let line = before.rsplit('\n').next().unwrap_or("");
     let indent = &line[..line.len() - line.trim_start().len()];
@@ -35,11 +54,11 @@ fn statements_of(function: &str) -> Vec<String> {
 
 /// Whether a script is of the vector kernels.
 pub(crate) fn is_of_lanes(script: &str) -> bool {
-    script.starts_with("lanes_") || script.starts_with("sum_")
+    ["lanes_", "sum_", "log_odds_"].iter().any(|kind| script.starts_with(kind))
 }
 
 /// The scripts of the vector kernels.
-fn scripts_of_lanes() -> BTreeMap<String, String> {
+pub(crate) fn scripts_of_lanes() -> BTreeMap<String, String> {
     scripts().into_iter().filter(|(name, _)| is_of_lanes(name)).collect()
 }
 
@@ -79,20 +98,27 @@ fn as_run(script: &str, text: &str) -> String {
 fn the_scripts_quote_every_statement_of_the_kernels() {
     let scripts = scripts_of_lanes();
     let names: Vec<&str> = scripts.keys().map(String::as_str).collect();
-    let series = ["lanes_f32.gappa", "lanes_f32_fused.gappa", "lanes_f64.gappa", "lanes_f64_fused.gappa"];
-    let all: Vec<&str> = series.into_iter().chain(["sum_f32.gappa", "sum_f64.gappa"]).collect();
+    let series =
+        ["", "_fused"].map(|fused| ["f32", "f64"].map(|format| format!("lanes_{format}{fused}.gappa")));
+    let of_log_odds = series.clone().map(|names| names.map(|name| name.replace("lanes", "log_odds")));
+    let sums = ["f32", "f64"].map(|format| format!("sum_{format}.gappa"));
+    let mut all: Vec<String> = [series, of_log_odds].concat().concat();
+    all.extend(sums);
+    all.sort();
     assert_eq!(names, all);
-    let format = fs::read_to_string("src/rounded/lanes/format.rs").expect("the source is there");
     for (name, script) in &scripts {
         let mut quoted: BTreeMap<String, Vec<String>> = BTreeMap::new();
         for Quotation { function, text, .. } in quotations(script) {
-            match function {
-                Some(function) => quoted.entry(function).or_default().push(text),
-                None => assert!(format.lines().any(|line| line.trim() == text), "{name}: {text}"),
+            if let Some(function) = function {
+                quoted.entry(function).or_default().push(text);
+            } else {
+                let source = source_of(fragments_of(name));
+                assert!(source.lines().any(|line| line.trim() == text), "{name}: {text}");
             }
         }
-        for &function in quoted_by(name) {
-            assert_eq!(quoted.remove(function), Some(statements_of(function)), "{name}: fn {function}");
+        for &(file, function) in quoted_by(name) {
+            let expected = Some(statements_of(file, function));
+            assert_eq!(quoted.remove(function), expected, "{name}: fn {function}");
         }
         assert!(quoted.is_empty(), "{name}: {quoted:?}");
     }
@@ -104,11 +130,23 @@ fn the_definitions_translate_the_kernels() {
         let (fused, double) = (name.contains("_fused"), name.contains("f64"));
         let mut checked = 0;
         for quotation in quotations(&script) {
-            let Some(_) = quotation.function else { continue };
             let text = as_run(&name, &quotation.text);
             assert!(quotation.explained || !quotation.definitions.is_empty(), "{name}: not defined: {text}");
             let parts: Vec<_> = expressions(&text).iter().flat_map(|x| x.rounded_parts(fused)).collect();
             for (defined, value) in &quotation.definitions {
+                // A constant, which other tests compare.
+                if !defined.contains(char::is_lowercase) {
+                    continue;
+                }
+                if let Some(polynomial) = defined.strip_prefix("horner_") {
+                    let calls =
+                        ["r", "square", "e"].map(|x| (x, format!("horner::<FUSED, _>(&{polynomial}, {x})")));
+                    let (x, _) = calls.iter().find(|(_, call)| text.contains(call)).expect("a call");
+                    let count = log_odds::polynomials()[polynomial].len();
+                    assert_eq!(*value, rounded_horner(polynomial, count, x, fused), "{name}: {defined}");
+                    checked += 1;
+                    continue;
+                }
                 // `let name = ...` is all of its right side.
                 let whole = text
                     .strip_prefix(&format!("let {defined} = "))
@@ -119,7 +157,11 @@ fn the_definitions_translate_the_kernels() {
                 checked += 1;
             }
         }
-        let least = if name.starts_with("sum_") { 4 } else { 23 + 3 * usize::from(double) };
+        let least = match name.split('_').next() {
+            Some("sum") => 4,
+            Some("lanes") => 23 + 3 * usize::from(double),
+            _ => 16,
+        };
         assert!(checked >= least, "{name}: only {checked} definitions");
         for (defined, value) in script.lines().filter_map(crate::definition) {
             if let Some(unit) = defined.strip_prefix("unit_") {
@@ -135,7 +177,7 @@ fn the_definitions_translate_the_kernels() {
 /// The format, the constants and the mathematics of each script.
 #[test]
 fn the_scripts_have_the_formats_of_the_kernels() {
-    for (name, script) in scripts_of_lanes() {
+    for (name, script) in scripts_of_lanes().into_iter().filter(|(name, _)| !name.starts_with("log_odds_")) {
         let (bits, digits, least) = if name.contains("f64") { (64, 53, 1074) } else { (32, 24, 149) };
         let has = |line: &str| assert!(script.lines().any(|l| l == line), "{name}: {line}");
         has(&format!("@rnd = float<ieee_{bits}, ne>;"));

@@ -5,6 +5,7 @@
 
 mod expression;
 mod lanes;
+mod log_odds;
 mod source;
 
 use expression::{expressions, horner};

@@ -1,6 +1,6 @@
 //! The header of a BMP: where its pixels end, its palette, and the alpha that decoders pass over.
 
-use super::ending::read_at;
+use super::bytes::read_at;
 use std::io::{self, Read, Seek};
 
 /// The bytes of a header that are read.

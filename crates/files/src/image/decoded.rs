@@ -5,7 +5,8 @@
 //! loaders.
 
 use super::bmp::Bmp;
-use super::ending::{self, read_at};
+use super::bytes::read_at;
+use super::ending;
 use super::layout::{Channels, Colours, Layout, Rest, levels};
 use super::palette::Palette;
 use crate::error::{Error, ErrorKind};

@@ -4,6 +4,7 @@
 //! with areas of the writer's own before it.
 
 use super::bmp::Bmp;
+use super::bytes::read_at;
 use image::ImageFormat;
 use std::io::{self, BufRead, Read, Seek, SeekFrom};
 
@@ -20,14 +21,6 @@ pub(super) fn end(input: &mut (impl BufRead + Seek), format: ImageFormat) -> io:
         }
         _ => Ok(None),
     }
-}
-
-/// Returns up to `length` bytes from a place on; fewer at the end of the file.
-pub(super) fn read_at(input: &mut (impl Read + Seek), place: u64, length: usize) -> io::Result<Vec<u8>> {
-    input.seek(SeekFrom::Start(place))?;
-    let mut bytes = Vec::new();
-    input.take(length as u64).read_to_end(&mut bytes)?;
-    Ok(bytes)
 }
 
 /// The first image of a GIF.

@@ -1,6 +1,7 @@
 //! Map images, told apart by their first bytes: PGM and PNG read from the top a piece at a time, others decoded whole.
 
 mod bmp;
+mod bytes;
 mod decoded;
 mod ending;
 mod format;

@@ -2,7 +2,8 @@
 //! which ROS 1 takes for greys.
 
 use super::bmp::Bmp;
-use super::ending::{first_frame, read_at};
+use super::bytes::read_at;
+use super::ending::first_frame;
 use image::ImageFormat;
 use std::io::{self, BufRead, Read, Seek, SeekFrom};
 

@@ -189,7 +189,7 @@ fn what_lies_between_nodes_is_seen() {
         (|x, c| (x - c).max(0.0), |c| (1.0 - c) * (1.0 - c) / 2.0, 0.7),
         (|x, c| f64::from(u8::from(x > c)), |c| 1.0 - c, 0.5),
         (|x, c| (x - c).max(0.0).sqrt(), |c| (1.0 - c) * (1.0 - c).sqrt() / 1.5, 1.25),
-        (|x, c| (x - c).max(0.0).powi(2), |c| (1.0 - c).powi(3) / 3.0, 0.7),
+        (|x, c| (x - c).max(0.0) * (x - c), |c| (1.0 - c) * (1.0 - c) * (1.0 - c) / 3.0, 0.7),
     ];
     let unit = Stretch { lower: -1.0, upper: 1.0 };
     for rule in Rule::ALL {

@@ -95,7 +95,7 @@ fn twelve_digits_in_550_evaluations() {
             let estimate =
                 adaptive(&sensor, weight, &GaussKronrod::new().relative(1e-12).rule(rule)).unwrap();
             assert_eq!(estimate.status, Status::Converged, "{ratio:e}, {rule:?}, {weight:?}");
-            assert!(estimate.evaluations <= 515, "{ratio:e}, {rule:?}, {weight:?}: {estimate:?}");
+            assert!(estimate.evaluations <= 550, "{ratio:e}, {rule:?}, {weight:?}: {estimate:?}");
             // The closed form is within an ulp, which is at most epsilon / 2.
             let error = (estimate.value - closed_form(&sensor, weight)).abs();
             assert!(error <= estimate.error + f64::EPSILON / 2.0, "{ratio:e}, {rule:?}: {estimate:?}");

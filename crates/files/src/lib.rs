@@ -38,6 +38,7 @@
 //! | `warning` | [`Warning`]: what makes a map mean less than it seems, with its figures |
 //! | `size` | sizes checked before memory is taken, and memory that grows with what was read |
 //! | `source` | [`Source`]: where files come from, a [`Disk`] or [`Memory`] |
+//! | `text` | lines of text and their fields |
 //! | `cells` | [`Cells`]: a grid in one of the encodings, and [`Counts`] of its values |
 //! | `map` | [`Map`]: cells, resolution, warnings |
 //! | `image` | PGM and PNG, from the top a piece at a time; BMP, PPM, JPEG and others, decoded whole |
@@ -45,7 +46,6 @@
 //! | [`npy`] | NumPy's arrays |
 //! | `npz` | archives of them |
 //! | [`gridmap`] | MRPT's grid maps |
-//! | `text` | lines of text and their fields |
 //! | `words` | words that a reader does not understand, counted |
 //! | [`octree`] | OctoMap's octrees, visited node by node |
 //! | [`trajectory`] | [`Trajectory`]: poses by their times; TUM text |

@@ -87,7 +87,9 @@ pub(super) fn contradictions(
         };
         let scans = [against(first, second)?, against(second, first)?];
         let times = scans.map(|scan| records[scan].time() - records[0].time());
-        found.push(Contradiction { times, place: place.middle, share: place.nats / whole });
+        // Both are rounded sums, in other orders: of all that there is a part may be above the whole.
+        let share = (place.nats / whole).min(1.0);
+        found.push(Contradiction { times, place: place.middle, share });
     }
     Ok(found)
 }

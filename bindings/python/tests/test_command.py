@@ -45,12 +45,17 @@ def test_the_wheel_is_a_port_of_all_operations(python):
 
 def interrupted(work, python):
     """Return what Ctrl-C half a second into the work leaves on standard error."""
-    code = f"import mean_information as mi, numpy as np\nprint('begun', flush=True)\n{work}"
+    # Python leaves the signal ignored where it began so, as in a shell's background.
+    listen = "import signal\nsignal.signal(signal.SIGINT, signal.default_int_handler)\n"
+    code = f"{listen}import mean_information as mi, numpy as np\nprint('begun', flush=True)\n{work}"
     process = subprocess.Popen([python, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     assert process.stdout.readline().strip() == b"begun"
     time.sleep(0.5)
     process.send_signal(signal.SIGINT)
-    return process.communicate(timeout=60)[1]
+    try:
+        return process.communicate(timeout=60)[1]
+    finally:
+        process.kill()
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")

@@ -13,11 +13,20 @@ def main(path: str) -> None:
     print(f"mean information  {tally.mean_information:.4f} bits per observed cell")
     print(f"information       {tally.information:.1f} bits of {tally.observed} observed cells")
     print(f"entropy           {tally.entropy:.1f} bits, of which {tally.unknown} of unknown cells")
-    # Percentages to probabilities, then a ufunc: bits of each cell.
-    p = np.where(read.cells == -1, 0.5, read.cells / 100)
-    bits = mi.information(p)
+    bits = bits_of_cells(read.cells, read.encoding)
     print(f"rows with most    {np.argsort(bits.sum(axis=1))[::-1][:3]}")
 
 
+def bits_of_cells(cells: np.ndarray, encoding: str) -> np.ndarray:
+    """Return the information of each cell, by a ufunc."""
+    if encoding == "percent":
+        return mi.information(np.where(cells == -1, 0.5, cells / 100))
+    if encoding == "log-odds":
+        return mi.information_from_log_odds(cells)
+    return mi.information(cells)
+
+
 if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit("which map? python measure_map.py FILE")
     main(sys.argv[1])

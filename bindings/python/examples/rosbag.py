@@ -1,6 +1,6 @@
 """The maps of a bag, read by `rosbags` without ROS: `python rosbag.py BAG [TOPIC]`.
 
-`meaninfo bag` does the same by itself; this is for who reads a bag's other topics, too.
+`meaninfo bag` does so by itself, and applies updates of maps, too; this is for who reads a bag's other topics, too.
 """
 
 import sys

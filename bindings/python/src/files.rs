@@ -78,7 +78,7 @@ impl PyScanLog {
     }
 }
 
-/// A scan as a log has it: for ``ScanMap.insert(pose, scan.bearings, scan.beams, max_range=scan.max_range)``.
+/// A scan as a log has it: for ``ScanMap.insert(pose, scan.bearings, scan.beams(), max_range=scan.max_range)``.
 ///
 /// Attributes
 /// ----------

@@ -25,6 +25,16 @@ def test_an_expected_map_is_the_mean():
     assert "EMMI" in repr(expected)
 
 
+def test_masked_cells_of_particles_are_refused():
+    particles = np.array([[[0.125, 0.25]], [[0.375, 0.5]]])
+    masked = np.ma.masked_less(particles, 0.2)
+    for given in (masked, list(masked)):
+        with pytest.raises(TypeError, match="masked"):
+            mi.expected_map(given)
+    # A mask without masked cells hides nothing.
+    assert mi.expected_map(np.ma.array(particles)).mean_information == mi.expected_map(particles).mean_information
+
+
 def test_expected_maps_of_every_encoding():
     percent = np.array([[[-1, 0]], [[100, 0]]], np.int8)
     expected = mi.expected_map(percent, [6, 2], encoding="percent")

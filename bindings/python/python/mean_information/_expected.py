@@ -36,7 +36,8 @@ def expected_map(
     Raises
     ------
     TypeError, ValueError
-        As `tally`, and for weights that are negative, NaN, infinite, or all zero, or not one for each map.
+        As `tally`, for masked cells, and for weights that are negative, NaN, infinite, or all zero, or not one for each
+        map.
 
     Notes
     -----
@@ -54,6 +55,8 @@ def expected_map(
     """
     if not isinstance(particles, np.ndarray):
         particles = list(particles)  # type: ignore[arg-type]
+    if any(np.ma.is_masked(particle) for particle in particles):
+        raise TypeError("particles have masked cells: give what is unknown as 0.5, as by np.ma.filled(particles, 0.5)")
     maps = [prepared(particle, encoding) for particle in particles]
     shapes = {particle.shape for particle in maps}
     if any(len(shape) != 2 for shape in shapes) or len(shapes) > 1:

@@ -199,6 +199,26 @@ await test("an image without a yaml file can be described", async (tab) => {
   assert.equal(await tab.locator("#describe").isVisible(), false);
 });
 
+await test("files of the names of others take their place", async (tab) => {
+  await idle(tab);
+  const pgm = (...greys) => Buffer.concat([Buffer.from(`P5\n${greys.length} 1\n255\n`), Buffer.from(greys)]);
+  const yaml = made("again.yaml", `${YAML("again.pgm")}mode: scale\n`);
+  const seen = async (paths) => {
+    await drop(tab, paths);
+    const wanted = spawnSync(meaninfo, ["map", "again.yaml", "--format", "json"], { cwd: work, encoding: "utf8" }).stdout;
+    const number = String(JSON.parse(wanted)[0].mean_information);
+    await tab.waitForFunction((number) => document.getElementById("number").textContent === number, number);
+    await idle(tab);
+    assert.equal((await saved(tab, "#save-json")).toString(), wanted);
+    return number;
+  };
+  const first = await seen([yaml, made("again.pgm", pgm(0, 100, 120, 254))]);
+  // Both again, then the image alone.
+  const second = await seen([yaml, made("again.pgm", pgm(0, 150))]);
+  const third = await seen([made("again.pgm", pgm(90, 110, 254))]);
+  assert.equal(new Set([first, second, third]).size, 3);
+});
+
 await test("three maps at once make a table", async (tab) => {
   await idle(tab);
   const npy = (values) =>

@@ -45,17 +45,28 @@ export class Maps {
   async #add(files, isSample) {
     if (this.#isSample) await this.#forget();
     this.#isSample = isSample;
+    const given = files.map(({ name }) => name);
+    const replaced = new Set(given.filter((name) => this.#files.has(name)));
     for (const file of files) this.#files.set(file.name, file);
     await this.#list();
     await this.#learnImages();
     element("errors").replaceChildren();
-    const given = files.map(({ name }) => name);
+    const twice = given.find((name, k) => given.indexOf(name) !== k);
+    if (twice) this.#refuse(`${twice}: two files have this name, and the last is taken; give one of them another name`);
+    // A file whose name was there takes its place: what was measured of the old one is measured again.
+    const again = [...this.#rows.keys()].filter((name) => replaced.has(name) || replaced.has(this.#images.get(name)));
+    if (again.length) {
+      await this.#client.ask({ ask: "forget" });
+      for (const name of again) this.#rows.delete(name);
+      if (again.includes(this.#chosen)) this.#hide();
+    }
     // An image that came may be the one that a description waits for.
-    const waiting = [...this.#missing.keys()].filter((name) => !given.includes(name));
-    const maps = [...given.filter((name) => !IMAGE.test(name)), ...waiting];
+    const waiting = [...this.#missing.keys()];
+    const maps = [...new Set([...given.filter((name) => !IMAGE.test(name)), ...waiting, ...again])];
     for (const name of maps) await this.#measure(name);
     this.#offerDescriptions();
-    if (this.#rows.size && !this.#rows.has(this.#chosen)) await this.#choose([...this.#rows.keys()][0]);
+    const next = this.#rows.has(this.#chosen) ? this.#chosen : [...this.#rows.keys()][0];
+    if (next && (next !== this.#chosen || again.includes(next))) await this.#choose(next);
     if (maps.length > 1) this.#tell(`${this.#rows.size} maps are measured`);
   }
 

@@ -38,6 +38,13 @@ impl From<Vec<Record>> for Value {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Record(pub Vec<(&'static str, Value)>);
 
+impl Record {
+    /// Creates a record of computed numbers by their names.
+    pub fn computed<const N: usize>(numbers: [(&'static str, f64); N]) -> Self {
+        Self(numbers.map(|(name, number)| (name, Value::Computed(Some(Number::Double(number))))).into())
+    }
+}
+
 impl Serialize for Value {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self {

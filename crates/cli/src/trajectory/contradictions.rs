@@ -1,7 +1,7 @@
 //! Where the scans of one trajectory contradict one another most, and which two of them do.
 
 use super::setup::Setup;
-use crate::output::{Number, Record, Value};
+use crate::output::Record;
 use mean_information::Error;
 use mean_information::scan::{Beam, Layer, Pose, Scan, ScanMap, blocks};
 use mean_information_files::scans::RangeScan;
@@ -35,12 +35,14 @@ impl Contradiction {
 
     /// Returns the values of JSON.
     pub(super) fn record(&self) -> Record {
-        let names = ["first_s", "second_s", "x_m", "y_m", "share"];
         let [[first, second], [x, y]] = [self.times, self.place];
-        let values = [first, second, x, y, self.share];
-        Record(
-            names.into_iter().zip(values.map(|value| Value::Computed(Some(Number::Double(value))))).collect(),
-        )
+        Record::computed([
+            ("first_s", first),
+            ("second_s", second),
+            ("x_m", x),
+            ("y_m", y),
+            ("share", self.share),
+        ])
     }
 }
 

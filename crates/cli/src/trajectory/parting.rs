@@ -1,7 +1,7 @@
 //! Where a trajectory parts from the best one: the stretch of the log in which the two move most differently.
 
 use super::common::Common;
-use crate::output::{Number, Record, Value};
+use crate::output::Record;
 use mean_information::scan::{Pose, blocks};
 use std::f64::consts::{PI, TAU};
 
@@ -51,12 +51,16 @@ impl Parting {
 
     /// Returns the values of JSON.
     pub(super) fn record(&self) -> Record {
-        let names = ["from_s", "to_s", "x_m", "y_m", "distance_m", "turn_rad", "share"];
         let [[from, to], [x, y], [metres, radians]] = [self.times, self.place, self.by];
-        let values = [from, to, x, y, metres, radians, self.share];
-        Record(
-            names.into_iter().zip(values.map(|value| Value::Computed(Some(Number::Double(value))))).collect(),
-        )
+        Record::computed([
+            ("from_s", from),
+            ("to_s", to),
+            ("x_m", x),
+            ("y_m", y),
+            ("distance_m", metres),
+            ("turn_rad", radians),
+            ("share", self.share),
+        ])
     }
 
     /// Says in words where the trajectory parts from that of the name `best`.

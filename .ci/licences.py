@@ -1,15 +1,15 @@
 """Checks the licences of all that is compiled in: `python3 .ci/licences.py [MANIFEST]`, needs cargo and its packages.
 
 Each dependency's licence, an expression with AND and OR, must be met by those that `deny.toml` allows. Prints how many
-packages have which; the status is 1 if one has another. Dependencies of tests and of builds alone do not travel.
+packages have which; the status is 1 if one has another. What travels, `travelling.py` says.
 """
 
-import json
 import re
-import subprocess
 import sys
 from collections import Counter
 from pathlib import Path
+
+from travelling import travelling
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -28,28 +28,10 @@ def is_met(expression: str, by: set[str]) -> bool:
     return bool(python) and eval(" ".join(python))  # noqa: S307: True, False, and, or, parentheses
 
 
-def travelling(manifest: str) -> dict[str, str]:
-    """Returns the licences of the packages that are compiled into what is handed out."""
-    command = ["cargo", "metadata", "--format-version=1", "--all-features", "--manifest-path", manifest]
-    metadata = json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout)
-    nodes = {node["id"]: node for node in metadata["resolve"]["nodes"]}
-    of_rust = {package["id"]: package for package in metadata["packages"]}
-    waiting, seen = [id for id in metadata["workspace_members"] if not of_rust[id]["publish"] == []], set()
-    # A binding is not published on crates.io, and travels all the same.
-    waiting = waiting or list(metadata["workspace_members"])
-    while waiting:
-        id = waiting.pop()
-        if id in seen:
-            continue
-        seen.add(id)
-        normal = [d["pkg"] for d in nodes[id]["deps"] if any(kind["kind"] is None for kind in d["dep_kinds"])]
-        waiting += normal
-    return {f"{of_rust[id]['name']} {of_rust[id]['version']}": of_rust[id]["license"] or "" for id in seen}
-
-
 def main() -> int:
     """Prints the licences, and those that are not allowed."""
-    licences = travelling(sys.argv[1] if len(sys.argv) > 1 else str(ROOT / "Cargo.toml"))
+    packages = travelling(sys.argv[1] if len(sys.argv) > 1 else str(ROOT / "Cargo.toml"), "--all-features").values()
+    licences = {f"{package['name']} {package['version']}": package["license"] or "" for package in packages}
     for licence, count in sorted(Counter(licences.values()).items()):
         print(f"{count:4} {licence}")
     by = allowed()

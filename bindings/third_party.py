@@ -7,13 +7,14 @@ fetches.
 """
 
 import difflib
-import json
 import re
-import subprocess
 import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
+sys.path.append(str(HERE.parent / ".ci"))
+from travelling import travelling  # noqa: E402: it is beside what checks licences
+
 DESKTOPS = ["x86_64-unknown-linux-gnu", "aarch64-apple-darwin", "x86_64-pc-windows-msvc"]
 TRAVEL = {"python": ("the wheel", DESKTOPS), "web": ("the page in a browser", ["wasm32-unknown-unknown"])}
 CHOICE = ["MIT", "BSD-2-Clause", "BSD-3-Clause", "Zlib", "BSL-1.0", "bzip2-1.0.6", "Unicode-3.0", "Apache-2.0"]
@@ -36,25 +37,6 @@ BODY = re.compile(
 """A licence from the words on that stand in all of its copies; before it are the names of those who give it."""
 
 
-def packages(folder: str, target: str) -> dict[str, dict]:
-    """Return the packages of others that are compiled in, as cargo tells of them."""
-    command = ["cargo", "metadata", "--format-version=1", "--locked", f"--filter-platform={target}"]
-    told = subprocess.run([*command, f"--manifest-path={HERE / folder / 'Cargo.toml'}"], capture_output=True, check=True)
-    told = json.loads(told.stdout)
-    of = {package["id"]: package for package in told["packages"]}
-    needs = {node["id"]: node["deps"] for node in told["resolve"]["nodes"]}
-    found, left = {}, [told["resolve"]["root"]]
-    while left:
-        package = of[left.pop()]
-        # Macros run in the compiler, and build scripts before it.
-        if package["id"] in found or any("proc-macro" in target["kind"] for target in package["targets"]):
-            continue
-        found[package["id"]] = package
-        normal = [need for need in needs[package["id"]] if any(kind["kind"] is None for kind in need["dep_kinds"])]
-        left.extend(need["pkg"] for need in normal)
-    return {name: package for name, package in found.items() if package["source"]}
-
-
 def licence_of(package: dict) -> tuple[str, str]:
     """Return the licence that is taken, and its text."""
     offered = re.split(r" OR |/", package["license"])
@@ -71,8 +53,12 @@ def licence_of(package: dict) -> tuple[str, str]:
 def written(folder: str) -> str:
     """Return the text of a binding."""
     what, targets = TRAVEL[folder]
-    found = {name: package for target in targets for name, package in packages(folder, target).items()}
-    listed = sorted(found.values(), key=lambda package: (package["name"], package["version"]))
+    manifest, found = str(HERE / folder / "Cargo.toml"), {}
+    for target in targets:
+        found |= travelling(manifest, "--locked", f"--filter-platform={target}")
+    # The repository's own have no source.
+    others = [package for package in found.values() if package["source"]]
+    listed = sorted(others, key=lambda package: (package["name"], package["version"]))
     lines = [f"Packages of others that travel in {what}, and their licences.", "Written by bindings/third_party.py.", "", STANDARD, ""]
     # Licences by their words, whatever their line breaks: the text as the first has it, and who gives it.
     texts: dict[str, tuple[str, list[str]]] = {}

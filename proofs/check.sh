@@ -44,6 +44,15 @@ verdict() {
     fi
 }
 
+# The ranges of the vector kernels' scripts, in the background: they take longest, and the proofs until there need one core.
+making=
+for script in proofs/lanes_*.gappa proofs/log_odds_*.gappa; do
+    wanted "$(basename "$script")" && [ -z "${REGIONS:-}" ] || continue
+    for certificate in lanes log_odds_regions; do sollya "proofs/$certificate.sollya" < /dev/null; done > "$ranges" 2>&1 &
+    making=$!
+    export REGIONS="$ranges"
+done
+
 # Sollya ends with status 3 even if all is well; what it writes must be what is committed, byte for byte.
 if wanted constants.sollya; then
     sollya proofs/constants.sollya < /dev/null 2>&1 | diff - src/rounded/constants.rs > "$output"
@@ -83,11 +92,7 @@ rows rows.sollya "${ROWS:-}" lanes::tests::rows_for_the_proof 57630
 rows log_odds_rows.sollya "" log_odds::tests::rows_for_the_proof 89782
 for script in proofs/lanes_*.gappa proofs/log_odds_*.gappa; do
     wanted "$(basename "$script")" || continue
-    # The ranges of all scripts, made once.
-    [ -n "${REGIONS:-}" ] || {
-        for certificate in lanes log_odds_regions; do sollya "proofs/$certificate.sollya" < /dev/null; done > "$ranges" 2>&1
-        export REGIONS="$ranges"
-    }
+    [ -z "$making" ] || { wait "$making"; making=; }
     proofs/regions.py "$script" > "$output" 2>&1
     verdict "$(basename "$script")" $?
 done

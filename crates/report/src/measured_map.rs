@@ -7,7 +7,7 @@ use crate::record::{Record, Value};
 use crate::submaps;
 use crate::words::{Refused, in_words};
 use mean_information_files::bags::{self, AnyMap, MapTopic, last_map_of_any_kind};
-use mean_information_files::{Contents, Disk, Map, Options, Source, octree, read_map_contents_from};
+use mean_information_files::{Contents, Disk, Error, Map, Options, Source, octree, read_map_contents_from};
 use std::path::{Path, PathBuf};
 
 /// The way a map is read and measured.
@@ -21,6 +21,17 @@ pub struct Reading {
     pub submaps: bool,
     /// The topic of a bag; if absent, the only one of maps that is no costmap, or else the only one of octrees.
     pub topic: Option<String>,
+}
+
+impl Reading {
+    /// Reads the last map of a bag, of the topic wanted.
+    ///
+    /// # Errors
+    /// As [`last_map_of_any_kind`].
+    pub fn last_map(&self, path: &Path) -> Result<AnyMap, Error> {
+        let wanted = MapTopic { name: self.topic.clone(), costmaps: false };
+        last_map_of_any_kind(path, &wanted, &self.options)
+    }
 }
 
 /// A map measured: one row of the result.
@@ -51,8 +62,7 @@ impl MeasuredMap {
         if !bags::is_bag(path) {
             return Self::read_from(&Disk, path, reading);
         }
-        let wanted = MapTopic { name: reading.topic.clone(), costmaps: false };
-        Ok(vec![match last_map_of_any_kind(path, &wanted, &reading.options)? {
+        Ok(vec![match reading.last_map(path)? {
             AnyMap::Octree(message) => {
                 Self::of_tree(path, MeasuredTree::of_message(path, &message, reading.clamp)?)
             }

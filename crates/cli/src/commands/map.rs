@@ -7,8 +7,8 @@ use crate::plots::{self, HeatMap};
 use crate::progress::Progress;
 use crate::reading::ReadingArguments;
 use clap::Args;
-use mean_information_files::bags::{self, AnyMap, MapTopic, last_map_of_any_kind};
-use mean_information_files::{Map, Options, read_map};
+use mean_information_files::bags::{self, AnyMap};
+use mean_information_files::{Map, read_map};
 use mean_information_report::submaps::is_state;
 use mean_information_report::{MeasuredMap, Measures, NotMeaningful, Reading, records};
 use rayon::prelude::*;
@@ -110,30 +110,29 @@ impl Arguments {
         if self.heat_map.is_none() {
             return Ok((MeasuredMap::read(path, &reading)?, None));
         }
-        let map = self.drawable(path, &reading.options)?;
+        let map = drawable(path, &reading)?;
         let measures = Measures::of(&map.cells).noticing(&map.warnings);
         let picture = drawn(path, &map, &measures)?;
         Ok((vec![MeasuredMap::new(path, map, measures)], Some(picture)))
-    }
-
-    /// Reads a map with its cells, of a bag the last one.
-    fn drawable(&self, path: &Path, options: &Options) -> Result<Map, Failure> {
-        if !bags::is_bag(path) {
-            return Ok(read_map(path, options)?);
-        }
-        let wanted = MapTopic { name: self.topic.clone(), costmaps: false };
-        match last_map_of_any_kind(path, &wanted, options)? {
-            AnyMap::Octree(message) => Err(Failure::file(
-                path,
-                format!("{} is of octrees, which have no picture; leave out --heat-map", message.topic()),
-            )),
-            AnyMap::Grid(map) => Ok(map),
-        }
     }
 }
 
 /// The rows of a file, and its picture.
 type Measured = (Vec<MeasuredMap>, Option<Vec<u8>>);
+
+/// Reads a map with its cells, of a bag the last one.
+fn drawable(path: &Path, reading: &Reading) -> Result<Map, Failure> {
+    if !bags::is_bag(path) {
+        return Ok(read_map(path, &reading.options)?);
+    }
+    match reading.last_map(path)? {
+        AnyMap::Octree(message) => Err(Failure::file(
+            path,
+            format!("{} is of octrees, which have no picture; leave out --heat-map", message.topic()),
+        )),
+        AnyMap::Grid(map) => Ok(map),
+    }
+}
 
 /// The heat map of a map.
 fn drawn(path: &Path, map: &Map, measures: &Measures) -> Result<Vec<u8>, Failure> {

@@ -26,6 +26,8 @@ pub struct Comparison {
     pub best: Option<String>,
     /// The answer in a sentence, of two rows or more.
     pub verdict: Option<String>,
+    /// Short names of the rows.
+    pub labels: Vec<String>,
 }
 
 impl Comparison {
@@ -63,19 +65,14 @@ impl Comparison {
         let rows: Vec<_> = rows.collect();
         let mut used = used;
         used.warnings.extend(warnings::of_scans(&used, common.silent));
-        let names = labels(&candidates.iter().map(|of| of.name.clone()).collect::<Vec<_>>());
+        let labels = labels(&candidates.iter().map(|of| of.name.clone()).collect::<Vec<_>>());
         let verdict = match *order {
             [best, next, ..] => against(&measured[next], &measured[best])
-                .map(|difference| verdict([&names[best], &names[next]], &difference)),
+                .map(|difference| verdict([&labels[best], &labels[next]], &difference)),
             _ => None,
         };
-        let best = order.first().map(|&best| names[best].clone());
-        Self { used, rows, best, verdict }
-    }
-
-    /// Returns short names of the rows.
-    pub fn labels(&self) -> Vec<String> {
-        labels(&self.rows.iter().map(|row| row.name.clone()).collect::<Vec<_>>())
+        let best = order.first().map(|&best| labels[best].clone());
+        Self { used, rows, best, verdict, labels }
     }
 
     /// Returns what is to be said of the log and of the rows, each with the name of what it is about.

@@ -80,8 +80,8 @@ Walls that are seen twice are where a trajectory is wrong; doors and people cont
 
     /// Describes the curves to those who do not see them.
     fn described(&self) -> String {
-        let ends = self.comparison.labels().into_iter().zip(self.measured).map(|(label, measured)| {
-            format!("{} ends at {:.4}", one_line(&label), measured.tally.mean_information())
+        let ends = self.comparison.labels.iter().zip(self.measured).map(|(label, measured)| {
+            format!("{} ends at {:.4}", one_line(label), measured.tally.mean_information())
         });
         format!("Mean information against time: {}.", ends.collect::<Vec<_>>().join(", "))
     }
@@ -104,17 +104,19 @@ fn capital(text: &str) -> String {
 /// Returns a row; on a narrow screen each cell has its head before it.
 fn tr(cells: &[String; 7]) -> String {
     let cell = |(column, text): (usize, &String)| {
-        let text = escaped(&if column == 0 {
-            text.replace('\n', "")
-        } else {
-            // Lines break between numbers, not within them.
-            text.replace(' ', "\u{a0}").replace('\n', ", ")
-        });
         if column == 0 {
-            return format!("<td>{text}</td>");
+            return format!("<td>{}</td>", breakable(&escaped(&text.replace('\n', ""))));
         }
+        // Lines break between numbers, not within them.
+        let text = escaped(&text.replace(' ', "\u{a0}").replace('\n', ", "));
         let head = escaped(&Row::HEADS[column].replace('\n', " "));
         format!("<td data-label=\"{head}\"{}>{text}</td>", class(column))
     };
     format!("<tr>{}</tr>\n", cells.iter().enumerate().map(cell).collect::<String>())
+}
+
+/// Lets the name of a file break after its marks, before it breaks anywhere.
+fn breakable(name: &str) -> String {
+    let mark = |letter| if ['/', '.', '_', '-'].contains(&letter) { "<wbr/>" } else { "" };
+    name.chars().flat_map(|letter| [letter.to_string(), mark(letter).to_owned()]).collect()
 }

@@ -52,7 +52,7 @@ impl Pictures<'_> {
     /// Returns the chart of all curves, and the panel of their differences from the first if there are others.
     fn curves(&self) -> (Chart<1>, Option<ChartPanel>) {
         let of = |first: Option<&[f64]>| -> Vec<Curve> {
-            let labels = self.comparison.labels().into_iter().zip(self.measured).enumerate();
+            let labels = self.comparison.labels.iter().cloned().zip(self.measured).enumerate();
             labels
                 .skip(usize::from(first.is_some()))
                 .map(|(index, (label, measured))| self.curve(index, label, &measured.series, first))
@@ -183,7 +183,7 @@ impl Pictures<'_> {
     }
 
     fn each(&self) -> impl Iterator<Item = (String, usize)> {
-        self.comparison.labels().into_iter().zip(0..)
+        self.comparison.labels.iter().cloned().zip(0..)
     }
 }
 

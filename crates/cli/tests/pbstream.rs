@@ -3,7 +3,7 @@
 mod common;
 
 use common::*;
-use mean_information_test_support::formats::pbstream::{grid, state, submap};
+use mean_information_test_support::formats::pbstream::{grid, state, submap_of};
 use mean_information_test_support::formats::shared_data;
 use serde_json::Value;
 
@@ -14,8 +14,8 @@ fn json(arguments: &[&str]) -> Vec<Value> {
 
 /// Two submaps of 3 x 2 cells: unknown, the two ends of the clamp, and a value between.
 fn two_submaps(folder: &Folder) -> String {
-    let records =
-        [[0, 0, 1, 1, 32767, 20000], [0, 0, 0, 0, 0, 32767]].map(|cells| submap(&grid(&cells, b"")));
+    let submaps = [(5, [0, 0, 1, 1, 32767, 20000]), (6, [0, 0, 0, 0, 0, 32767])];
+    let records = submaps.map(|(index, cells)| submap_of([2, index], &grid(&cells, b"")));
     folder.write("race.pbstream", state(&records)).to_str().unwrap().to_owned()
 }
 
@@ -52,7 +52,7 @@ fn submaps_apart_have_a_row_each() {
     let column = |key: &str| rows.iter().map(|row| row[key].clone()).collect::<Vec<_>>();
     assert_eq!(column("observed"), [4, 1]);
     assert_eq!(column("width"), [3, 3]);
-    assert_eq!(column("map"), [format!("{path} submap 2, 5"), format!("{path} submap 2, 5")]);
+    assert_eq!(column("map"), [format!("{path} submap 2, 5"), format!("{path} submap 2, 6")]);
 }
 
 #[test]

@@ -8,6 +8,7 @@ use crate::error::{Error, ErrorKind, Place};
 use crate::options::{MAX_COUNTED, Options};
 use crate::scans::{Kept, ScanLog, ScanOptions, Selection};
 use flate2::read::GzDecoder;
+use std::collections::BTreeSet;
 use std::io::{BufReader, Read};
 
 const MAGIC: u64 = 0x7b1d_1f7b_5bf5_01db;
@@ -23,7 +24,7 @@ const OF_SUBMAP: usize = 16;
 ///
 /// # Errors
 /// An [`Error`] with the byte of the record if this is no saved state of format 1 or 2, is cut short, has submaps in three dimensions or of
-/// signed distances, or a grid whose cells are not as many as it says or more than the limit.
+/// signed distances, the same submap twice, or a grid whose cells are not as many as it says or more than the limit.
 pub fn read(input: impl Read, length: u64, options: &Options) -> Result<Vec<Submap>, Error> {
     submaps(input, length, options, &mut Kept::default())
 }
@@ -31,11 +32,18 @@ pub fn read(input: impl Read, length: u64, options: &Options) -> Result<Vec<Subm
 /// Reads the submaps, and counts what is kept of them: a record may repeat them, compressed.
 fn submaps(input: impl Read, length: u64, options: &Options, kept: &mut Kept) -> Result<Vec<Submap>, Error> {
     let max_cells = options.max_cells.unwrap_or(MAX_COUNTED);
-    let mut submaps = Vec::new();
+    let (mut submaps, mut names) = (Vec::new(), BTreeSet::new());
     let most = max_cells.saturating_mul(BYTES_PER_CELL).saturating_add(BESIDE_CELLS);
     records(input, length, most, &mut |number, value, input| {
         if number == 3 {
             let submap = Submap::read(input, value.length()?, max_cells)?;
+            let (trajectory, index) = (submap.trajectory, submap.index);
+            // Its cells would count twice.
+            if !names.insert((trajectory, index)) {
+                let words =
+                    format!("submap {trajectory}, {index}: stands here again, allowed is once in a state");
+                return Err(Error::new(ErrorKind::Format, words).with_value(format!("{trajectory}, {index}")));
+            }
             // A value takes a probability and a count.
             kept.add(OF_SUBMAP + 2 * submap.counts.values.len())?;
             submaps.push(submap);
@@ -120,14 +128,14 @@ fn records(mut input: impl Read, length: u64, most: u64, each: &mut Each<'_>) ->
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mean_information_test_support::formats::pbstream::{cloud, grid, message, node, state, submap};
+    use mean_information_test_support::formats::pbstream::{cloud, grid, message, node, state, submap_of};
 
     /// What is kept of a state that a small file repeats is counted: of a submap 16 numbers and 2 a value, of a node 32, and of
     /// a point the integer that it is stored as and 3.
     #[test]
     fn what_is_kept_is_counted() {
-        let one = submap(&grid(&[0, 1, 2, 3, 3, 3], b""));
-        let bytes = state(&[[&*one, &one].concat()]);
+        let grid = grid(&[0, 1, 2, 3, 3, 3], b"");
+        let bytes = state(&[[submap_of([2, 5], &grid), submap_of([2, 6], &grid)].concat()]);
         let kept = |room| {
             let mut kept = Kept::with_room(room);
             submaps(&*bytes, bytes.len() as u64, &Options::default(), &mut kept).map(|found| found.len())

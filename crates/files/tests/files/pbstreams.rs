@@ -6,7 +6,7 @@ use mean_information::map::encoding::Probability;
 use mean_information_files::pbstream::{Submap, read};
 use mean_information_files::{Error, ErrorKind, Options, Place, read_submaps};
 use mean_information_test_support::formats::pbstream::{
-    first_record, grid, integer, message, state, stream, submap,
+    first_record, grid, integer, message, state, stream, submap, submap_of,
 };
 use mean_information_test_support::formats::shared_data;
 
@@ -116,6 +116,17 @@ fn states_that_are_none() {
     let many = message(3, &[&integer(1, 1 << 40), &integer(2, 1 << 40)]);
     let large = message(4, &[&message(1, &[&[0x09], &0.25_f64.to_le_bytes(), &many])]);
     assert!(refused(&state(&[submap(&large)]), ErrorKind::TooLarge).contains("more than the limit of 1000"));
+}
+
+#[test]
+fn a_submap_is_counted_once() {
+    let grid = grid(&[7; 6], b"");
+    let with = |other| state(&[submap_of([2, 5], &grid), submap_of(other, &grid)]);
+    for other in [[2, 6], [3, 5], [5, 2]] {
+        assert_eq!(submaps(&with(other)).unwrap().len(), 2);
+    }
+    let line = refused(&with([2, 5]), ErrorKind::Format);
+    assert!(line.ends_with(": submap 2, 5: stands here again, allowed is once in a state"), "{line}");
 }
 
 #[test]

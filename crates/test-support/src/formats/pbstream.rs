@@ -36,7 +36,13 @@ pub fn grid(cells: &[u64], more: &[u8]) -> Vec<u8> {
 
 /// Writes a record with submap 5 of trajectory 2, in the plane.
 pub fn submap(of_plane: &[u8]) -> Vec<u8> {
-    message(3, &[&message(1, &[&integer(1, 2), &integer(2, 5)]), &message(2, &[&integer(3, 1), of_plane])])
+    submap_of([2, 5], of_plane)
+}
+
+/// Writes a record with a submap, given the number of its trajectory and its own, in the plane.
+pub fn submap_of([trajectory, index]: [u64; 2], of_plane: &[u8]) -> Vec<u8> {
+    let name = message(1, &[&integer(1, trajectory), &integer(2, index)]);
+    message(3, &[&name, &message(2, &[&integer(3, 1), of_plane])])
 }
 
 /// Writes a state of a header of format version 2 and these records.

@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
 """Runs the Gappa scripts of the vector kernels, once for each value and binade of distances or interval of log-odds.
 
-    proofs/regions.py SCRIPT...
+    proofs/regions.py [--every=N] SCRIPT...
 
 `proofs/lanes.sollya` and `proofs/log_odds_regions.sollya` certify the ranges of a region, which take the place of REGION in a
 script; VALUE is the name of the value. The kernel of occupancies without entropies has no complements: there the goals that
 speak of them are left out, and so is a goal that ends with `# of` other values. Prints the first region that fails, and ends
-with status 1 then. REGIONS may be a file of what both write.
+with status 1 then. With `--every` only each N-th region runs, the first and the last among them. REGIONS may be a file of
+what both write.
 """
 
+import argparse
 import os
 import re
 import subprocess
@@ -55,10 +57,16 @@ def failure(script, kernel, value, ranges):
 
 def main():
     status = 0
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--every", type=int, default=1)
+    parser.add_argument("scripts", type=Path, nargs="+")
+    arguments = parser.parse_args()
     ranges = regions()
-    for path in map(Path, sys.argv[1:]):
+    for path in arguments.scripts:
         script = path.read_text()
-        chosen = [region for region in ranges if path.stem.startswith(region[0])]
+        all_of_it = [region for region in ranges if path.stem.startswith(region[0])]
+        last = len(all_of_it) - 1
+        chosen = [region for k, region in enumerate(all_of_it) if k % arguments.every == 0 or k == last]
         with ThreadPoolExecutor(2) as pool:
             results = pool.map(lambda region: failure(script, *region), chosen)
             first = next((said for said in results if said), None)

@@ -111,7 +111,10 @@ fn grid<E: Encoding>(particle: usize, cells: ArrayView2<'_, E::Stored>) -> PyRes
     let (height, width) = cells.dim();
     let mut copied = Vec::new();
     copied.try_reserve_exact(cells.len()).map_err(|_| out_of_memory())?;
-    copied.extend(cells.iter());
+    match cells.as_slice() {
+        Some(cells) => copied.extend_from_slice(cells),
+        None => copied.extend(cells.iter()),
+    }
     let map = Geometry::new(1.0, [0.0; 2]).and_then(|geometry| Grid::new(width, height, geometry, copied));
     map.map_err(|error| {
         PyValueError::new_err(match error {

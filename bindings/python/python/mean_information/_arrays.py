@@ -1,5 +1,7 @@
 """Arrays as the compiled part takes them: the element type of their encoding, native and aligned; and NumPy's axes."""
 
+from __future__ import annotations  # names in help(), not what they stand for
+
 import operator
 import os
 from collections.abc import Sequence

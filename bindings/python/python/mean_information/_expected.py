@@ -1,5 +1,7 @@
 """The expected map of a particle filter."""
 
+from __future__ import annotations  # names in help(), not what they stand for
+
 from collections.abc import Iterable
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Maps of files: what may be said of which kind of file."""
 
+from __future__ import annotations  # names in help(), not what they stand for
+
 from os import PathLike, fspath
 from typing import Literal
 

@@ -1,5 +1,7 @@
 """Arrays measured."""
 
+from __future__ import annotations  # names in help(), not what they stand for
+
 from collections.abc import Sequence
 from typing import Any
 

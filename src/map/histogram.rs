@@ -319,7 +319,7 @@ fn count_into<B: Byte, C: AddAssign + From<u8>, const N: usize>(tables: &mut [[C
         }
         // One load for a word, and shifts: faster than one by one (benches/RESULTS.md, "From Python").
         for word in run.as_chunks::<WORD>().0 {
-            let word = u64::from_le_bytes(word.map(|cell| cell.byte()));
+            let word = u64::from_le_bytes(word.map(sealed::Sealed::byte));
             for k in 0..WORD {
                 tables[k % N][usize::from((word >> (8 * k)) as u8)] += C::from(1);
             }

@@ -258,7 +258,8 @@ impl<'a, E: Encoding> Hypotheses<'a, E> {
     /// # Ok::<(), mean_information::Error>(())
     /// ```
     pub fn mean_of_mean_information(&self) -> E::Float {
-        let values: Vec<_> = self.maps.iter().map(|map| map.tally().mean_information()).collect();
+        // The bits of each map's tally, without its entropies.
+        let values: Vec<_> = self.maps.iter().map(|map| E::information_sum(map.cells()).mean()).collect();
         self.weights.mean(&values).nearest()
     }
 

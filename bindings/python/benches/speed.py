@@ -1,17 +1,34 @@
 """Times beside NumPy and SciPy, for `benches/RESULTS.md`: `python speed.py`. Of processor time, as other work may keep the
-machine busy and all of these have one thread; each ratio is that of the least of seven runs."""
+machine busy and all of these have one thread; the least of many rounds, in which those that are compared take turns."""
 
+import os
 import time
-import timeit
 
 import mean_information as mi
 import numpy as np
 from scipy.special import entr
 
+ROUNDS = 15
+BITS = mi.information(np.arange(101) / 100)
 
-def seconds(function, *arguments, number=1, repeat=7):
-    """Return the least time of a call."""
-    return min(timeit.repeat(lambda: function(*arguments), timer=time.process_time, number=number, repeat=repeat)) / number
+
+def seconds(*functions, number=1):
+    """Return the least time of a call of each."""
+    least = [np.inf] * len(functions)
+    for _ in range(ROUNDS):
+        for k, function in enumerate(functions):
+            begun = time.process_time()
+            for _ in range(number):
+                function()
+            least[k] = min(least[k], (time.process_time() - begun) / number)
+    return least
+
+
+def row(work, unit, *times):
+    """Print a row: our time, and those of others with their ratios to it."""
+    here, *others = times
+    shown = [f"{other / unit:.3g} ({other / here:.2f})" for other in others]
+    print(f"| {work} | {here / unit:.3g} | " + " | ".join(shown + [""] * (2 - len(shown))) + " |", flush=True)
 
 
 def by_scipy(p):
@@ -28,22 +45,18 @@ def mean_by_bincount(cells):
     return counts @ BITS / (counts.sum() - counts[50])
 
 
-BITS = mi.information(np.arange(101) / 100)
-
-
 def main():
     random = np.random.default_rng(1)
     cells = random.random(10_000_000)
-    print("| work | here | SciPy, or NumPy's count | NumPy's two logarithms |")
+    print("load", *(f"{load:.1f}" for load in os.getloadavg()))
+    print("| work | here | SciPy, or NumPy's count | NumPy |")
     print("|---|---|---|---|")
+    each = cells.size * 1e-9
     for dtype in (np.float64, np.float32):
         p = cells.astype(dtype)
         np.testing.assert_allclose(mi.information(p), by_scipy(p.astype(float)), rtol=0, atol=2e-7)
-        here, scipy, numpy = (100 * seconds(f, p) for f in (mi.information, by_scipy, by_numpy))
-        print(
-            f"| `information`, 10^7 random {dtype.__name__}, ns an element | {here:.2f} "
-            f"| {scipy:.2f} ({scipy / here:.1f}) | {numpy:.2f} ({numpy / here:.1f}) |"
-        )
+        times = seconds(*(lambda f=f: f(p) for f in (mi.information, by_scipy, by_numpy)))
+        row(f"`information`, 10^7 random {dtype.__name__}, ns an element", each, *times)
     kinds = {
         "of random values": random.integers(-1, 101, 10_000_000).astype(np.int8),
         "as a mapper's": np.repeat(random.choice([-1, 0, 100, 3, 97], 100_000), 100).astype(np.int8),
@@ -51,12 +64,25 @@ def main():
     for name, percent in kinds.items():
         value = mi.mean_information(percent, encoding="percent")
         np.testing.assert_allclose(value, mean_by_bincount(percent), rtol=1e-12)
-        here = seconds(lambda: mi.mean_information(percent, encoding="percent")) * 100
-        count = seconds(mean_by_bincount, percent) * 100
-        print(f"| `mean_information`, 10^7 int8 {name}, ns a cell | {here:.3f} | {count:.3f} ({count / here:.1f}) | |")
+        times = seconds(lambda: mi.mean_information(percent, encoding="percent"), lambda: mean_by_bincount(percent))
+        row(f"`mean_information`, 10^7 int8 {name}, ns a cell", each, *times)
     x = np.float64(0.3)
-    here, scipy = (1e9 * seconds(f, x, number=100_000) for f in (mi.information, entr))
-    print(f"| one scalar, ns a call | {here:.0f} | {scipy:.0f} ({scipy / here:.2f}) | |")
+    row("one scalar, ns a call", 1e-9, *seconds(lambda: mi.information(x), lambda: entr(x), number=20_000))
+    where = cells < 0.7
+    masked = np.ma.array(cells, mask=~where)
+    times = seconds(lambda: mi.tally(cells, where=where), lambda: mi.tally(masked), lambda: mi.tally(cells), lambda: cells[where])
+    with_where, with_mask, whole, compress = times
+    row("`tally`, `where=` of 0.7 of 10^7 float64, ns a cell, beside without and NumPy's `cells[where]`", each, with_where, whole, compress)
+    row("the same of a masked array", each, with_mask, whole, compress)
+    rows = cells[: 16 * 50_000].reshape(-1, 16)
+    times = seconds(lambda: mi.mean_information(rows, axis=1), lambda: by_scipy(rows).mean(axis=1), lambda: by_numpy(rows).mean(axis=1))
+    row("`mean_information(axis=1)`, 50 000 maps of 16 cells, ns a map", len(rows) * 1e-9, *times)
+    particles, weights = random.random((40, 1, 100_000)), random.random(40)
+    expected = mi.expected_map(particles, weights).probabilities
+    np.testing.assert_allclose(expected, np.average(particles, axis=0, weights=weights), rtol=1e-14)
+    times = seconds(lambda: mi.expected_map(particles, weights), lambda: np.average(particles, axis=0, weights=weights))
+    row("`expected_map` of 40 x 100 000 cells, ms, beside the mean alone", 1e-3, times[0], np.nan, times[1])
+    print("load", *(f"{load:.1f}" for load in os.getloadavg()))
 
 
 if __name__ == "__main__":

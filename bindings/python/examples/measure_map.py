@@ -1,4 +1,4 @@
-"""A map measured: `python measure_map.py ../../../maps/room.yaml`."""
+"""A map measured: `python measure_map.py ../../../maps/room.yaml`; of an array of integers `... FILE.npy percent`."""
 
 import sys
 
@@ -6,9 +6,9 @@ import mean_information as mi
 import numpy as np
 
 
-def main(path: str) -> None:
+def main(path: str, encoding: str | None = None) -> None:
     """Print the measures of a map, and where its information is."""
-    read = mi.read_map(path)
+    read = mi.read_map(path, encoding=encoding)
     tally = read.tally
     print(f"mean information  {tally.mean_information:.4f} bits per observed cell")
     print(f"information       {tally.information:.1f} bits of {tally.observed} observed cells")
@@ -27,6 +27,6 @@ def bits_of_cells(cells: np.ndarray, encoding: str) -> np.ndarray:
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        sys.exit("which map? python measure_map.py FILE")
-    main(sys.argv[1])
+    if len(sys.argv) not in (2, 3):
+        sys.exit("which map? python measure_map.py FILE [ENCODING]")
+    main(*sys.argv[1:])

@@ -73,10 +73,12 @@ def main() -> None:
     parser.add_argument("out", type=Path)
     parser.add_argument("maps", type=Path, nargs="+")
     parser.add_argument("--tile", type=int, default=256)
+    parser.add_argument("--encoding", help="of the arrays among the maps, .npy and .npz: percent, log-odds, mrpt")
     parser.add_argument("--day", type=datetime.date.fromisoformat, default=datetime.date.today())
     arguments = parser.parse_args()
     for path in arguments.maps:
-        read = mi.read_map(path)
+        # Other files say it themselves.
+        read = mi.read_map(path, encoding=arguments.encoding if path.suffix in (".npy", ".npz") else None)
         for warning in read.warnings:
             print(f"{path}: {warning}")
         tiles = list(tiles_of(path.stem, read.cells, read.encoding, read.resolution, arguments.tile))

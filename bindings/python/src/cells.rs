@@ -2,8 +2,9 @@
 
 use crate::long_work::Steps;
 use mean_information::map::Encoding;
+use mean_information::map::encoding::Probability;
 use mean_information::{InformationSum, Tally};
-use numpy::ndarray::{ArrayViewD, Dimension, FoldWhile, Zip};
+use numpy::ndarray::{ArrayView1, ArrayViewD, Dimension};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -11,6 +12,8 @@ use pyo3::prelude::*;
 const PIECE: usize = 1 << 22;
 /// The cells that are gathered at once, where they lie apart.
 const GATHERED: usize = 1 << 12;
+/// The cells that are chosen at once by their mask.
+const TOGETHER: usize = 64;
 
 /// Cells of an array, and those among them that are meant: all, or those where the mask is not 0.
 #[derive(Clone)]
@@ -74,22 +77,53 @@ impl<S: Copy> Chosen<'_, S> {
         };
         match (self.cells.as_slice_memory_order(), &self.mask) {
             (Some(all), None) => all.chunks(PIECE).try_for_each(take)?,
-            (_, None) => {
-                let mut gathered = Gathered::new(take);
-                let cells = Zip::from(&self.cells);
-                finish(cells.fold_while(Ok(()), |_, &cell| gathered.push(cell)))?;
-                gathered.end()?;
-            }
-            (_, Some(mask)) => {
-                let mut gathered = Gathered::new(&mut take);
-                let cells = Zip::from(&self.cells).and(mask);
-                finish(cells.fold_while(Ok(()), |_, &cell, &mask| {
-                    if mask == 0 { FoldWhile::Continue(Ok(())) } else { gathered.push(cell) }
-                }))?;
-                gathered.end()?;
-            }
+            _ => self.gather(&mut take)?,
         }
         Ok(sums)
+    }
+
+    /// Hands the cells that are meant to `take`, some at a time, in any order.
+    fn gather(&self, take: &mut dyn FnMut(&[S]) -> Result<(), Stop>) -> Result<(), Stop> {
+        let mut gathered = Gathered::new(take);
+        // One block each, laid out alike.
+        if let Some(mask) = &self.mask
+            && self.cells.strides() == mask.strides()
+            && let (Some(cells), Some(mask)) =
+                (self.cells.as_slice_memory_order(), mask.as_slice_memory_order())
+        {
+            gathered.chosen(cells, mask)?;
+            return gathered.end();
+        }
+        // Along the axis on which cells stand nearest to each other.
+        let nearest =
+            self.cells.axes().filter(|axis| axis.len > 1).min_by_key(|axis| axis.stride.unsigned_abs());
+        let Some(along) = nearest.map(|axis| axis.axis) else {
+            // One cell, or none.
+            let is_meant = self.mask.iter().flatten().all(|&mask| mask != 0);
+            self.cells.iter().filter(|_| is_meant).try_for_each(|&cell| gathered.all(&[cell]))?;
+            return gathered.end();
+        };
+        match &self.mask {
+            None => self.cells.lanes(along).into_iter().try_for_each(|lane| gathered.lane(lane))?,
+            Some(mask) => {
+                for (lane, mask) in self.cells.lanes(along).into_iter().zip(mask.lanes(along)) {
+                    match (lane.as_slice(), mask.as_slice()) {
+                        (Some(cells), Some(mask)) => gathered.chosen(cells, mask)?,
+                        // One value for all of them, broadcast.
+                        _ if mask.strides() == [0] => {
+                            if mask[0] != 0 {
+                                gathered.lane(lane)?;
+                            }
+                        }
+                        _ => {
+                            let meant = lane.iter().zip(&mask).filter(|&(_, &mask)| mask != 0);
+                            meant.map(|(&cell, _)| cell).try_for_each(|cell| gathered.all(&[cell]))?;
+                        }
+                    }
+                }
+            }
+        }
+        gathered.end()
     }
 
     /// Returns why measuring the array, or a part of it, stopped: `ValueError` naming the first cell, in the order of indices,
@@ -104,16 +138,36 @@ impl<S: Copy> Chosen<'_, S> {
                 let place: Vec<_> = index.as_array_view().iter().map(ToString::to_string).collect();
                 let (place, value) = (place.join(", "), E::value(cell));
                 let place = if place.is_empty() { String::new() } else { format!("[{place}]") };
-                let shown = if value.is_nan() { "nan".to_owned() } else { value.to_string() };
-                let advice =
-                    if value.is_nan() { "; where=~np.isnan(cells) leaves such cells out" } else { "" };
-                let allowed = E::ALLOWED;
+                let (shown, allowed, advice) = (shown(value), E::ALLOWED, advice::<E>(value));
                 return PyValueError::new_err(format!(
                     "cells{place} is {shown}, allowed is {allowed}{advice}"
                 ));
             }
         }
         PyValueError::new_err("the cells changed while they were measured")
+    }
+}
+
+/// Returns a number as Python shows it.
+pub(crate) fn shown(value: f64) -> String {
+    if value.is_nan() { "nan".to_owned() } else { value.to_string() }
+}
+
+/// Returns what may help with a value that an encoding does not allow.
+fn advice<E: Encoding>(value: f64) -> &'static str {
+    let is_probability = E::ALLOWED == Probability::<f64>::ALLOWED;
+    match value {
+        _ if value.is_nan() => "; where=~np.isnan(cells) leaves such cells out",
+        -1.0 if is_probability => "; np.where(cells < 0, 0.5, cells) makes -1 unknown",
+        1.0..=100.0 if is_probability && value.fract() == 0.0 => {
+            "; of percentages (ROS) in floats, cells.astype(np.int8) with encoding=\"percent\""
+        }
+        -1e-6..=1.000_001 if is_probability => "; np.clip(cells, 0, 1) cuts rounding off",
+        _ if is_probability => "",
+        _ if value > 100.0 => {
+            "; of the grey levels of an image, read_map reads the yaml that says what they mean"
+        }
+        _ => "",
     }
 }
 
@@ -129,33 +183,66 @@ impl From<PyErr> for Stop {
     }
 }
 
-/// Returns what a fold ended with.
-fn finish(fold: FoldWhile<Result<(), Stop>>) -> Result<(), Stop> {
-    fold.into_inner()
-}
-
 /// A buffer of cells that lie apart.
-struct Gathered<S, F> {
+struct Gathered<'a, S> {
     buffer: Vec<S>,
-    take: F,
+    take: &'a mut dyn FnMut(&[S]) -> Result<(), Stop>,
 }
 
-impl<S, F: FnMut(&[S]) -> Result<(), Stop>> Gathered<S, F> {
-    fn new(take: F) -> Self {
+impl<'a, S: Copy> Gathered<'a, S> {
+    fn new(take: &'a mut dyn FnMut(&[S]) -> Result<(), Stop>) -> Self {
         Self { buffer: Vec::with_capacity(GATHERED), take }
     }
 
-    fn push(&mut self, cell: S) -> FoldWhile<Result<(), Stop>> {
-        self.buffer.push(cell);
-        if self.buffer.len() < GATHERED {
-            return FoldWhile::Continue(Ok(()));
+    /// Adds cells that stand side by side.
+    #[inline]
+    fn all(&mut self, mut cells: &[S]) -> Result<(), Stop> {
+        while !cells.is_empty() {
+            let (now, rest) = cells.split_at(cells.len().min(GATHERED - self.buffer.len()));
+            self.buffer.extend_from_slice(now);
+            cells = rest;
+            if self.buffer.len() == GATHERED {
+                self.end()?;
+            }
         }
-        match self.end() {
-            Ok(()) => FoldWhile::Continue(Ok(())),
-            Err(error) => FoldWhile::Done(Err(error)),
-        }
+        Ok(())
     }
 
+    /// Adds cells that stand in a row.
+    fn lane(&mut self, lane: ArrayView1<'_, S>) -> Result<(), Stop> {
+        if let Some(cells) = lane.as_slice() {
+            return self.all(cells);
+        }
+        let mut rest = lane.iter().copied();
+        while rest.len() > 0 {
+            self.buffer.extend(rest.by_ref().take(GATHERED - self.buffer.len()));
+            if self.buffer.len() == GATHERED {
+                self.end()?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds those cells whose mask is not 0.
+    fn chosen(&mut self, cells: &[S], mask: &[u8]) -> Result<(), Stop> {
+        for (cells, mask) in cells.chunks(TOGETHER).zip(mask.chunks(TOGETHER)) {
+            let count = mask.iter().map(|&mask| usize::from(mask != 0)).sum::<usize>();
+            if count == cells.len() {
+                self.all(cells)?;
+            } else if count > 0 {
+                // Without branches: each is written, and the next one over it unless it is meant.
+                let (mut kept, mut at) = ([cells[0]; TOGETHER], 0);
+                for (&cell, &mask) in cells.iter().zip(mask) {
+                    kept[at % TOGETHER] = cell;
+                    at += usize::from(mask != 0);
+                }
+                self.all(&kept[..count])?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Hands over what is left.
     fn end(&mut self) -> Result<(), Stop> {
         let done = (self.take)(&self.buffer);
         self.buffer.clear();

@@ -1,9 +1,11 @@
 //! Refusals as Python's exceptions, in the words of the command.
 
 use mean_information_cli::Failure;
-use mean_information_files::ErrorKind;
-use pyo3::exceptions::{PyFileNotFoundError, PyMemoryError, PyOSError, PyValueError};
+use mean_information_files::{ErrorKind, file_of};
+use pyo3::exceptions::{PyMemoryError, PyOSError, PyValueError};
 use pyo3::prelude::*;
+use std::io;
+use std::path::Path;
 
 /// Converts what the library refuses: `ValueError`.
 pub(crate) fn refused(error: mean_information::Error) -> PyErr {
@@ -13,16 +15,43 @@ pub(crate) fn refused(error: mean_information::Error) -> PyErr {
     }
 }
 
-/// Converts what a reader refuses, with the file and the command's words: `FileNotFoundError`, `MemoryError`, `OSError`, or
-/// `ValueError`.
+/// The numbers of the system's errors that a reader finds out by itself: `ENOENT` and `EISDIR`.
+const NO_ENTRY: i32 = 2;
+const IS_DIRECTORY: i32 = 21;
+
+/// Converts what a reader refuses, with the file and the command's words: `FileNotFoundError` and other kinds of `OSError`, with
+/// `errno` and `filename` as of Python's `open`, `MemoryError`, or `ValueError`.
 pub(crate) fn of_file(error: mean_information_files::Error) -> PyErr {
-    let kind = error.kind();
-    let words = in_python(&Failure::from(error).to_string());
-    match kind {
-        ErrorKind::NotFound => PyFileNotFoundError::new_err(words),
-        ErrorKind::TooLarge | ErrorKind::OutOfMemory => PyMemoryError::new_err(words),
-        ErrorKind::NotAFile | ErrorKind::Io => PyOSError::new_err(words),
-        _ => PyValueError::new_err(words),
+    let (kind, file) = (error.kind(), error.file().map(Path::to_owned));
+    let cause = std::error::Error::source(&error).and_then(|cause| cause.downcast_ref::<io::Error>());
+    let number = cause.and_then(io::Error::raw_os_error);
+    // What the system says, in Python's words for it; else the reader's.
+    let of_system =
+        number.filter(|_| cause.is_some_and(|cause| error.message() == format!("cannot be read: {cause}")));
+    let failure = Failure::from(error);
+    match (kind, failure) {
+        (ErrorKind::NotFound | ErrorKind::NotAFile | ErrorKind::Io, Failure::File { path, message }) => {
+            let file = file_of(&file.unwrap_or(path)).to_owned();
+            let number = number.unwrap_or(match kind {
+                ErrorKind::NotFound => NO_ENTRY,
+                _ if file.is_dir() => IS_DIRECTORY,
+                _ => return PyOSError::new_err(in_python(&format!("{}: {message}", file.display()))),
+            });
+            Python::attach(|py| {
+                let says = |number| py.import("os")?.call_method1("strerror", (number,))?.extract();
+                let words = of_system.and_then(|number| says(number).ok());
+                // Python makes the kind of `OSError` of the number.
+                PyOSError::new_err((
+                    number,
+                    words.unwrap_or_else(|| in_python(&message)),
+                    file.into_os_string(),
+                ))
+            })
+        }
+        (ErrorKind::TooLarge | ErrorKind::OutOfMemory, failure) => {
+            PyMemoryError::new_err(in_python(&failure.to_string()))
+        }
+        (_, failure) => PyValueError::new_err(in_python(&failure.to_string())),
     }
 }
 
@@ -46,4 +75,12 @@ pub(crate) fn in_python(words: &str) -> String {
 /// The refusal of an array of results that memory does not hold.
 pub(crate) fn out_of_memory() -> PyErr {
     PyMemoryError::new_err("not enough memory for the result")
+}
+
+/// Counts in words: "1 scan", "2 scans".
+pub(crate) fn count(number: impl Into<u64>, what: &str) -> String {
+    match number.into() {
+        1 => format!("1 {what}"),
+        number => format!("{number} {what}s"),
+    }
 }

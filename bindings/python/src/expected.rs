@@ -1,12 +1,14 @@
 //! The expected map of a particle filter's hypotheses.
 
+use crate::cells::shown;
 use crate::encodings::{Array, with_encoding};
 use crate::errors::{out_of_memory, refused};
 use crate::long_work::watched;
+use crate::pickled::{Made, made};
 use crate::tally::{Format, PyTally};
-use mean_information::Real;
 use mean_information::expected::Hypotheses;
 use mean_information::map::{Encoding, Geometry, Grid};
+use mean_information::{Error, Real};
 use numpy::PyArrayMethods;
 use numpy::ndarray::ArrayView2;
 use pyo3::exceptions::PyValueError;
@@ -40,8 +42,28 @@ impl PyExpectedMap {
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
         let shape = self.probabilities.bind(py).getattr("shape")?;
         let (emmi, mean) = (self.mean_information(), self.mean_of_particles);
-        Ok(format!("<ExpectedMap of shape {shape}: EMMI {emmi} bits per observed cell; particles {mean}>"))
+        Ok(format!(
+            "<ExpectedMap of shape {shape}: EMMI {emmi:?} bits per observed cell; particles {mean:?}>"
+        ))
     }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Made<'py, State>> {
+        let Self { probabilities, tally, mean_of_particles } = self;
+        made(py, "_expected_map", (probabilities.clone_ref(py), tally.clone_ref(py), *mean_of_particles))
+    }
+}
+
+/// What pickle keeps of an expected map.
+type State = (Py<PyAny>, Py<PyTally>, f64);
+
+/// Makes an expected map of what pickle has kept.
+#[pyfunction]
+pub(crate) fn _expected_map(
+    probabilities: Py<PyAny>,
+    tally: Py<PyTally>,
+    mean_of_particles: f64,
+) -> PyExpectedMap {
+    PyExpectedMap { probabilities, tally, mean_of_particles }
 }
 
 /// Compute the expected map of particles, which `_expected.py` has prepared.
@@ -89,7 +111,17 @@ fn grid<E: Encoding>(particle: usize, cells: ArrayView2<'_, E::Stored>) -> PyRes
     let (height, width) = cells.dim();
     let mut copied = Vec::new();
     copied.try_reserve_exact(cells.len()).map_err(|_| out_of_memory())?;
-    copied.extend(cells.iter());
+    match cells.as_slice() {
+        Some(cells) => copied.extend_from_slice(cells),
+        None => copied.extend(cells.iter()),
+    }
     let map = Geometry::new(1.0, [0.0; 2]).and_then(|geometry| Grid::new(width, height, geometry, copied));
-    map.map_err(|error| PyValueError::new_err(format!("particle {particle}: {error}")))
+    map.map_err(|error| {
+        PyValueError::new_err(match error {
+            Error::Cell { row, column, value, allowed } => {
+                format!("particles[{particle}][{row}, {column}] is {}, allowed is {allowed}", shown(value))
+            }
+            error => format!("particles[{particle}]: {error}"),
+        })
+    })
 }

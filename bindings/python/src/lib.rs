@@ -4,9 +4,11 @@
 //! | module | holds |
 //! |---|---|
 //! | `errors` | refusals as Python's exceptions |
+//! | `pickled` | how plain data travels by pickle |
 //! | `long_work` | work without the interpreter, which Ctrl-C ends |
 //! | `cells` | cells of arrays, in pieces |
 //! | `encodings` | encodings by their names |
+//! | `axes` | many maps in one array |
 //! | `tally` | tallies, and arrays measured |
 //! | `expected` | the expected map of a filter's particles |
 //! | `limit` | the limit of the mean information |
@@ -14,20 +16,26 @@
 //! | `scan_map` | maps from range scans |
 //! | `interruptible` | a disk whose files Ctrl-C closes |
 //! | `trajectory` | trajectories, read |
-//! | `files` | files of the field, read |
+//! | `scans` | logs of scans, read |
+//! | `maps` | maps, read |
+//! | `bag` | the maps of a bag, measured |
 //! | `ufuncs` | functions of a cell as NumPy's ufuncs |
 //! | `command` | the command `meaninfo`, and the operations of ports |
 
+mod axes;
+mod bag;
 mod cells;
 mod command;
 mod encodings;
 mod errors;
 mod expected;
-mod files;
 mod interruptible;
 mod limit;
 mod long_work;
+mod maps;
+mod pickled;
 mod scan_map;
+mod scans;
 mod sensors;
 mod tally;
 mod trajectory;
@@ -45,13 +53,19 @@ mod _native {
     use super::command::{arguments_of, command, operation_names, run_operation};
 
     #[pymodule_export]
-    use super::expected::{PyExpectedMap, expected_map};
+    use super::expected::{_expected_map, PyExpectedMap, expected_map};
 
     #[pymodule_export]
-    use super::files::{PyMap, PyRangeScan, PyScanLog, read_map, read_scans, read_trajectory};
+    use super::bag::{_bag_map, PyBagMap, read_bag};
 
     #[pymodule_export]
-    use super::limit::{PyLimit, limit_of};
+    use super::maps::{_map, PyMap, kind_of_map, read_map};
+
+    #[pymodule_export]
+    use super::scans::{_range_scan, _scan_log, PyRangeScan, PyScanLog, read_scans, read_trajectory};
+
+    #[pymodule_export]
+    use super::limit::{_limit, PyLimit, limit_of};
 
     #[pymodule_export]
     use super::scan_map::PyScanMap;
@@ -63,7 +77,7 @@ mod _native {
     use super::tally::{PyTally, mean_of, tally_of};
 
     #[pymodule_export]
-    use super::trajectory::PyTrajectory;
+    use super::trajectory::{_trajectory, PyTrajectory};
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {

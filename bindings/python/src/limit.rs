@@ -1,6 +1,7 @@
 //! The limit of the mean information of one scan as cells shrink.
 
 use crate::errors::refused;
+use crate::pickled::{Made, made};
 use mean_information::limit::{self, Weight};
 use mean_information::quadrature::adaptive::GaussKronrod;
 use mean_information::quadrature::rigorous::Rigorous;
@@ -27,7 +28,7 @@ pub(crate) struct PyLimit {
     value: f64,
     lower: f64,
     upper: f64,
-    status: &'static str,
+    status: String,
     evaluations: u64,
 }
 
@@ -36,9 +37,23 @@ impl PyLimit {
     fn __repr__(&self) -> String {
         let Self { value, lower, upper, status, evaluations } = self;
         format!(
-            "Limit(value={value}, lower={lower}, upper={upper}, status='{status}', evaluations={evaluations})"
+            "Limit(value={value:?}, lower={lower:?}, upper={upper:?}, status='{status}', evaluations={evaluations})"
         )
     }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Made<'py, State>> {
+        let Self { value, lower, upper, ref status, evaluations } = *self;
+        made(py, "_limit", (value, lower, upper, status.clone(), evaluations))
+    }
+}
+
+/// What pickle keeps of a limit.
+type State = (f64, f64, f64, String, u64);
+
+/// Makes a limit of what pickle has kept.
+#[pyfunction]
+pub(crate) fn _limit(value: f64, lower: f64, upper: f64, status: String, evaluations: u64) -> PyLimit {
+    PyLimit { value, lower, upper, status, evaluations }
 }
 
 /// Compute what the mean information of one scan of a circular room tends to as cells shrink, Eq. 7 of the report [1]_.
@@ -101,7 +116,7 @@ pub(crate) fn limit_of(
         _ => return Err(choice("method", method, "'closed-form', 'adaptive' and 'rigorous'")),
     };
     let Computed { value, lower, upper, status, evaluations } = computed.map_err(refused)?;
-    Ok(PyLimit { value, lower, upper, status, evaluations })
+    Ok(PyLimit { value, lower, upper, status: status.to_owned(), evaluations })
 }
 
 /// Refuses a word that names none of the choices.

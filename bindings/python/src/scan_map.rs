@@ -1,13 +1,15 @@
 //! Maps from range scans.
 
-use crate::errors::refused;
+use crate::errors::{count, refused};
+use crate::long_work::watched;
 use crate::sensors::{FunctionReading, PySteppedSensor, Sensor};
 use crate::tally::PyTally;
 use mean_information::Error;
 use mean_information::scan::{Beam, Pose, Scan, ScanMap};
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
+use std::sync::Arc;
 
 /// A map that range scans are inserted into, and removed from again, to the bits of a map that never had them.
 ///
@@ -40,7 +42,8 @@ use pyo3::prelude::*;
 /// 0
 #[pyclass(name = "ScanMap", module = "mean_information")]
 pub(crate) struct PyScanMap {
-    map: ScanMap<f64>,
+    /// Shared with who measures it without the interpreter; what changes it meanwhile changes a copy.
+    map: Arc<ScanMap<f64>>,
     #[pyo3(get)]
     sensor: Py<PyAny>,
 }
@@ -53,17 +56,18 @@ enum Change {
 }
 
 /// A scan as Python hands it over: pose, bearings, ranges, greatest range.
-type Given<'a, 'py> = ((f64, f64, f64), &'a Bound<'py, PyAny>, &'a Bound<'py, PyAny>, f64);
+type Given<'a, 'py> = (&'a Bound<'py, PyAny>, &'a Bound<'py, PyAny>, &'a Bound<'py, PyAny>, f64);
 
 impl PyScanMap {
     /// Changes the map by a scan and the model of its readings; a scan without beams says nothing.
     fn change(&mut self, py: Python<'_>, change: Change, given: Given<'_, '_>) -> PyResult<()> {
         let (pose, bearings, ranges, max_range) = given;
-        let Some(scan) = scan(pose, &floats(bearings)?, &floats(ranges)?, max_range)? else {
+        let (bearings, ranges) = (floats("bearings", bearings)?, floats("ranges", ranges)?);
+        let Some(scan) = scan(pose_of(pose)?, &bearings, &ranges, max_range)? else {
             return Ok(());
         };
         let sensor = Sensor::new(self.sensor.bind(py))?;
-        let map = &mut self.map;
+        let map = Arc::make_mut(&mut self.map);
         /// Inserts or removes.
         macro_rules! apply {
             ($model:expr) => {
@@ -85,7 +89,7 @@ impl PyScanMap {
 
 /// Takes a scan of Python: beams whose range is NaN are left out, those at the greatest range and beyond did not return.
 fn scan(
-    pose: (f64, f64, f64),
+    pose: Pose,
     bearings: &PyReadonlyArray1<'_, f64>,
     ranges: &PyReadonlyArray1<'_, f64>,
     max_range: f64,
@@ -95,7 +99,6 @@ fn scan(
         let (bearings, ranges) = (bearings.len(), ranges.len());
         return Err(PyValueError::new_err(format!("{bearings} bearings were given for {ranges} ranges")));
     }
-    let pose = Pose::new(pose.0, pose.1, pose.2).map_err(refused)?;
     let beams = bearings.iter().zip(ranges).filter(|(_, range)| !range.is_nan());
     let beams = beams.map(|(&bearing, &range)| Beam { bearing, range: (range < max_range).then_some(range) });
     let beams: Vec<_> = beams.collect();
@@ -120,14 +123,14 @@ impl PyScanMap {
             None => Py::new(py, PySteppedSensor::new(resolution, 0.4, 0.7)?)?.into_any(),
         };
         Sensor::new(sensor.bind(py))?;
-        Ok(Self { map, sensor })
+        Ok(Self { map: Arc::new(map), sensor })
     }
 
     /// Insert a scan: along each beam, as far as the model of its range reaches, the cells that it crosses.
     ///
     /// Parameters
     /// ----------
-    /// pose : tuple of float
+    /// pose : sequence of float, shape (3,)
     ///     x and y of the sensor in metres, and its heading in radians, counter-clockwise from the x axis.
     /// bearings : array_like of float, shape (n,)
     ///     The directions of the beams from the heading, in radians, counter-clockwise.
@@ -139,15 +142,15 @@ impl PyScanMap {
     ///
     /// Raises
     /// ------
-    /// ValueError
-    ///     If a number is out of its range, the first of which is named; then the map has not changed.
+    /// TypeError, ValueError
+    ///     If an argument is no list of numbers; if a number is out of its range, the first of which is named; then the map has not changed.
     /// MemoryError
     ///     If the map would grow beyond 2**26 cells; then it has not changed.
     #[pyo3(signature = (pose, bearings, ranges, *, max_range))]
     fn insert(
         &mut self,
         py: Python<'_>,
-        pose: (f64, f64, f64),
+        pose: &Bound<'_, PyAny>,
         bearings: &Bound<'_, PyAny>,
         ranges: &Bound<'_, PyAny>,
         max_range: f64,
@@ -170,7 +173,7 @@ impl PyScanMap {
     fn remove(
         &mut self,
         py: Python<'_>,
-        pose: (f64, f64, f64),
+        pose: &Bound<'_, PyAny>,
         bearings: &Bound<'_, PyAny>,
         ranges: &Bound<'_, PyAny>,
         max_range: f64,
@@ -183,8 +186,9 @@ impl PyScanMap {
     /// Returns
     /// -------
     /// Tally
-    fn tally(&self, py: Python<'_>) -> PyTally {
-        py.detach(|| self.map.tally()).into()
+    fn tally(&self, py: Python<'_>) -> PyResult<PyTally> {
+        let map = Arc::clone(&self.map);
+        watched(py, move || map.tally()).map(PyTally::from)
     }
 
     /// Return the occupancies of the rectangle that scans have crossed, 1/2 where nothing is known.
@@ -194,7 +198,8 @@ impl PyScanMap {
     /// ndarray of float64, shape (rows, columns)
     ///     Row 0 is the lowest, column 0 the leftmost; its lower left corner is at `origin`.
     fn probabilities<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let grid = py.detach(|| self.map.probabilities()).map_err(refused)?;
+        let map = Arc::clone(&self.map);
+        let grid = watched(py, move || map.probabilities())?.map_err(refused)?;
         let cells = PyArray1::from_slice(py, grid.cells()).reshape([grid.height(), grid.width()])?;
         Ok(cells.into_any())
     }
@@ -225,12 +230,64 @@ impl PyScanMap {
     }
 
     fn __repr__(&self) -> String {
-        format!("<ScanMap of {} scans, cells of {} m>", self.map.scans(), self.map.resolution())
+        format!("<ScanMap of {}, cells of {:?} m>", count(self.map.scans(), "scan"), self.map.resolution())
+    }
+
+    /// A copy is a map of its own: what is inserted into one is not in the other.
+    fn __copy__(&self, py: Python<'_>) -> Self {
+        Self { map: Arc::clone(&self.map), sensor: self.sensor.clone_ref(py) }
+    }
+
+    fn __deepcopy__(&self, py: Python<'_>, memo: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let sensor = py.import("copy")?.call_method1("deepcopy", (&self.sensor, memo))?;
+        Ok(Self { map: Arc::clone(&self.map), sensor: sensor.unbind() })
+    }
+
+    #[expect(clippy::unused_self, reason = "a method of Python")]
+    fn __reduce__(&self) -> PyResult<()> {
+        Err(PyTypeError::new_err(
+            "a ScanMap is not pickled: insert its scans again where it is needed, or send its tally() or its \
+             probabilities(); copy.copy(scan_map) copies it",
+        ))
     }
 }
 
-/// Takes a list of numbers as floats, as NumPy does.
-fn floats<'py>(list: &Bound<'py, PyAny>) -> PyResult<PyReadonlyArray1<'py, f64>> {
-    let array = list.py().import("numpy")?.call_method1("asarray", (list, "float64"))?;
-    array.extract().map_err(|_| PyValueError::new_err("bearings and ranges are lists of one dimension"))
+/// Takes a pose: any sequence of three numbers.
+fn pose_of(given: &Bound<'_, PyAny>) -> PyResult<Pose> {
+    let [x, y, theta] = match given.extract::<(f64, f64, f64)>() {
+        Ok((x, y, theta)) => [x, y, theta],
+        Err(_) => match *floats("pose", given)?.as_array().to_vec() {
+            [x, y, theta] => [x, y, theta],
+            ref others => {
+                let words = format!(
+                    "pose is of {}, allowed are 3: x, y, heading",
+                    count(others.len() as u64, "number")
+                );
+                return Err(PyValueError::new_err(words));
+            }
+        },
+    };
+    Pose::new(x, y, theta).map_err(refused)
+}
+
+/// Takes a list of numbers as floats, as NumPy does; `name` is that of the argument.
+fn floats<'py>(name: &str, list: &Bound<'py, PyAny>) -> PyResult<PyReadonlyArray1<'py, f64>> {
+    let py = list.py();
+    let array = py.import("numpy")?.call_method1("asarray", (list, "float64"));
+    let array = array.map_err(|error| {
+        let words = format!("{name}: {}", error.value(py));
+        if error.is_instance_of::<PyTypeError>(py) {
+            PyTypeError::new_err(words)
+        } else {
+            PyValueError::new_err(words)
+        }
+    })?;
+    let dimensions: usize = array.getattr("ndim")?.extract()?;
+    array.extract().map_err(|_| {
+        let words = format!(
+            "{name} has {}, allowed is one dimension: a list of numbers",
+            count(dimensions as u64, "dimension")
+        );
+        PyValueError::new_err(words)
+    })
 }

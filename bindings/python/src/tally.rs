@@ -1,14 +1,13 @@
 //! Tallies: the class, and arrays measured.
 
-use crate::cells::{Chosen, Sums};
+use crate::axes::along;
+use crate::cells::Chosen;
 use crate::encodings::{Array, with_encoding};
 use crate::errors::refused;
 use crate::long_work::Steps;
-use mean_information::map::Encoding;
 use mean_information::tally::format_of_bytes;
 use mean_information::{InformationSum, Real, Tally};
-use numpy::ndarray::{ArrayD, Axis, Dimension, IxDyn, indices};
-use numpy::{Element, PyArrayDescr, PyArrayDyn, PyReadonlyArrayDyn, dtype};
+use numpy::{Element, PyArrayDescr, PyArrayDescrMethods, PyArrayDyn, PyReadonlyArrayDyn, dtype};
 use pyo3::exceptions::{PyOverflowError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyType};
@@ -55,8 +54,8 @@ macro_rules! with_tally {
 ///
 /// Parameters
 /// ----------
-/// dtype : {"float64", "float32"}, optional
-///     The precision of the cells of this empty tally; `tally` makes tallies of cells.
+/// dtype : {float64, float32}, optional
+///     The precision of the cells of this empty tally, as NumPy takes it; `tally` makes tallies of cells.
 ///
 /// Examples
 /// --------
@@ -85,14 +84,21 @@ impl Either {
 #[pymethods]
 impl PyTally {
     #[new]
-    #[pyo3(signature = (dtype="float64"))]
-    fn new(dtype: &str) -> PyResult<Self> {
-        match dtype {
-            "float64" => Ok(Tally::<f64>::new().into()),
-            "float32" => Ok(Tally::<f32>::new().into()),
-            _ => Err(PyValueError::new_err(format!(
-                "dtype is {dtype:?}, allowed are \"float64\" and \"float32\""
-            ))),
+    #[pyo3(signature = (dtype=None))]
+    fn new(py: Python<'_>, dtype: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
+        let Some(given) = dtype else { return Ok(Tally::<f64>::new().into()) };
+        // What NumPy takes for a type: its name, `np.float32`, the `dtype` of an array or a tally.
+        let of_cells = || {
+            let words = "Tally() makes an empty tally, and takes a dtype; tally(cells) measures an array";
+            PyTypeError::new_err(words)
+        };
+        let found = PyArrayDescr::new(py, given).map_err(|_| of_cells())?;
+        if found.is_equiv_to(&numpy::dtype::<f64>(py)) {
+            Ok(Tally::<f64>::new().into())
+        } else if found.is_equiv_to(&numpy::dtype::<f32>(py)) {
+            Ok(Tally::<f32>::new().into())
+        } else {
+            Err(PyValueError::new_err(format!("dtype is {found}, allowed are float64 and float32")))
         }
     }
 
@@ -252,7 +258,7 @@ impl PyTally {
         let [observed, unknown, free, occupied] =
             [self.observed(), self.unknown(), self.free(), self.occupied()];
         with_tally!(&self.0, tally => format!(
-            "<Tally: {} bits per observed cell; {observed} observed ({free} free, {occupied} occupied), {unknown} unknown>",
+            "<Tally: {:?} bits per observed cell; {observed} observed ({free} free, {occupied} occupied), {unknown} unknown>",
             tally.mean_information(),
         ))
     }
@@ -301,31 +307,4 @@ pub(crate) fn mean_of<'py>(
         let means = py.detach(|| along::<Encoding_>(&chosen, &axes))?;
         Ok(PyArrayDyn::from_owned_array(py, means).into_any())
     })
-}
-
-/// Computes the mean information along axes: an array of the others.
-fn along<E: Encoding>(chosen: &Chosen<'_, E::Stored>, axes: &[usize]) -> PyResult<ArrayD<E::Float>>
-where
-    InformationSum<E::Float>: Sums<E>,
-{
-    let kept: Vec<_> = (0..chosen.cells.ndim()).filter(|axis| !axes.contains(axis)).collect();
-    let shape: Vec<_> = kept.iter().map(|&axis| chosen.cells.len_of(Axis(axis))).collect();
-    let (mut means, mut steps) = (Vec::new(), Steps::default());
-    means.try_reserve_exact(shape.iter().product()).map_err(|_| crate::errors::out_of_memory())?;
-    for place in indices(&shape[..]) {
-        let mut part = chosen.clone();
-        // From the last axis on, so that the numbers of the others stay.
-        for (&axis, &at) in kept.iter().zip(place.as_array_view()).rev() {
-            part.cells.index_axis_inplace(Axis(axis), at);
-            if let Some(mask) = &mut part.mask {
-                mask.index_axis_inplace(Axis(axis), at);
-            }
-        }
-        // The index in a refusal is that in the whole array.
-        let sum = part.measure::<E, InformationSum<E::Float>>(&mut steps);
-        let sum = sum.map_err(|stop| chosen.refusal::<E>(stop))?;
-        means.push(sum.mean());
-        steps.add(100)?;
-    }
-    ArrayD::from_shape_vec(IxDyn(&shape), means).map_err(|error| PyValueError::new_err(error.to_string()))
 }

@@ -1,5 +1,7 @@
 //! Trajectories, read.
 
+use crate::errors::{count, of_file, refused};
+use crate::pickled::{Made, made};
 use mean_information::scan::Pose;
 use mean_information_files::Trajectory;
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
@@ -59,8 +61,30 @@ impl PyTrajectory {
 
     fn __repr__(&self) -> String {
         let [first, last] = self.trajectory.span();
-        format!("<Trajectory of {} poses from {first} to {last} s>", self.trajectory.len())
+        format!(
+            "<Trajectory of {} from {first:?} to {last:?} s>",
+            count(self.trajectory.len() as u64, "pose")
+        )
     }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Made<'py, State<'py>>> {
+        made(py, "_trajectory", (self.times(py), self.poses(py)?, self.warnings.clone()))
+    }
+}
+
+/// What pickle keeps of a trajectory.
+type State<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>, Vec<String>);
+
+/// Makes a trajectory of what pickle has kept.
+#[pyfunction]
+pub(crate) fn _trajectory(
+    times: Vec<f64>,
+    poses: Vec<[f64; 3]>,
+    warnings: Vec<String>,
+) -> PyResult<PyTrajectory> {
+    let poses = poses.into_iter().map(|[x, y, theta]| Pose::new(x, y, theta).map_err(refused));
+    let trajectory = Trajectory::new(times, poses.collect::<PyResult<_>>()?).map_err(of_file)?;
+    Ok(PyTrajectory { trajectory, warnings })
 }
 
 /// Returns x, y and heading.

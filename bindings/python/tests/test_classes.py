@@ -1,5 +1,6 @@
 """Expected maps, maps of scans, limits."""
 
+import copy
 import pickle
 
 import mean_information as mi
@@ -49,8 +50,13 @@ def test_bad_particles_are_refused():
     good = np.full((2, 3, 4), 0.25)
     bad = good.copy()
     bad[1, 2, 0] = np.nan
-    with pytest.raises(ValueError, match="particle 1: cell at row 2, column 0 is NaN"):
-        mi.expected_map(bad)
+    for particles in (bad, list(bad)):
+        with pytest.raises(ValueError, match=r"^particles\[1\]\[2, 0\] is nan, allowed is a probability from 0 to 1$"):
+            mi.expected_map(particles)
+    with pytest.raises(ValueError, match=r"^particles\[0\]\[0, 1\] is 205, allowed is a percentage .*, or 255 for unknown$"):
+        mi.expected_map(np.array([[[255, 205]]], np.uint8), encoding="percent")
+    with pytest.raises(ValueError, match="encoding is 'x', allowed are"):
+        mi.expected_map([], encoding="x")
     for weights, words in [
         ([1.0], "number of weights is 1, allowed is 2"),
         ([1.0, -1.0], "weight 1 is -1"),
@@ -113,6 +119,46 @@ def test_scans_are_inserted_and_removed():
     assert forwards.tally() == few.tally()
 
 
+def test_a_pose_is_any_sequence_of_three_numbers():
+    expected = mi.ScanMap(0.25)
+    expected.insert((1, 2.5, 0.5), [0.0], [1.0], max_range=4.0)
+    for pose in ([1, 2.5, 0.5], np.array([1, 2.5, 0.5]), np.float32([1, 2.5, 0.5]), tuple(np.array([1, 2.5, 0.5]))):
+        scans = mi.ScanMap(0.25)
+        scans.insert(pose, [0.0], [1.0], max_range=4.0)
+        assert scans.tally() == expected.tally()
+        scans.remove(pose, [0.0], [1.0], max_range=4.0)
+        assert scans.scans == 0
+    with pytest.raises(ValueError, match="pose has 0 dimensions"):
+        scans.insert(None, [0.0], [1.0], max_range=4.0)
+
+
+def test_copies_of_a_map_of_scans_are_maps_of_their_own():
+    scans = mi.ScanMap(0.1, agreement=True)
+    drive(scans, [(0.0, 0.0, 0.0)])
+    before, agreement = scans.tally(), scans.agreement
+    for copied in (copy.copy(scans), copy.deepcopy(scans)):
+        assert copied.tally() == before and copied.sensor == scans.sensor
+        drive(copied, [(0.3, 0.1, 0.2)])
+        assert copied.scans == 2 and copied.tally() != before
+        drive(copied, [(0.0, 0.0, 0.0)], remove=True)
+        assert copied.scans == 1
+    assert scans.scans == 1 and scans.tally() == before and scans.agreement == agreement
+    with pytest.raises(TypeError, match="a ScanMap is not pickled: insert its scans again"):
+        pickle.dumps(scans)
+    assert repr(scans) == "<ScanMap of 1 scan, cells of 0.1 m>" and repr(mi.ScanMap(1.0)) == "<ScanMap of 0 scans, cells of 1.0 m>"
+
+
+def test_results_travel():
+    expected = mi.expected_map(np.array([[[0.125, 0.5]], [[0.75, 0.5]]]), [6, 2])
+    limit = mi.limit(2.0, 0.2)
+    for travel in (lambda x: pickle.loads(pickle.dumps(x)), copy.deepcopy, copy.copy):
+        assert travel(limit) == limit
+        arrived = travel(expected)
+        assert arrived.tally == expected.tally and arrived.mean_of_particles == expected.mean_of_particles
+        np.testing.assert_array_equal(arrived.probabilities, expected.probabilities)
+        assert repr(arrived) == repr(expected)
+
+
 class Own:
     """Steps, in Python."""
 
@@ -161,7 +207,13 @@ def test_bad_scans_are_refused():
         (((0.0, 0.0, 0.0), [np.inf], [1.0]), "bearing of beam 0 is inf"),
         (((0.0, 0.0, 0.0), [0.0], [-1.0]), "range of beam 0 is -1"),
         (((0.0, 0.0, 0.0), [0.0, 1.0], [1.0]), "2 bearings were given for 1 ranges"),
-        (((0.0, 0.0, 0.0), [[0.0]], [[1.0]]), "one dimension"),
+        (((0.0, 0.0, 0.0), [[0.0]], [[1.0]]), "bearings has 2 dimensions, allowed is one dimension"),
+        (((0.0, 0.0, 0.0), [0.0], 1.0), "ranges has 0 dimensions, allowed is one dimension"),
+        (((0.0, 0.0), [0.0], [1.0]), "pose is of 2 numbers, allowed are 3: x, y, heading"),
+        (([0.0], [0.0], [1.0]), "pose is of 1 number, allowed are 3"),
+        ((np.zeros((1, 3)), [0.0], [1.0]), "pose has 2 dimensions"),
+        ((["a", 0, 0], [0.0], [1.0]), "pose: could not convert"),
+        (((0.0, 0.0, 0.0), ["b"], [1.0]), "bearings: could not convert"),
     ]:
         with pytest.raises(ValueError, match=words):
             scans.insert(*arguments, max_range=4.0)

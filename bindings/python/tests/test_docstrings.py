@@ -31,5 +31,14 @@ def test_examples(name):
         assert results.attempted > 0 or not is_shown, name
 
 
+@pytest.mark.parametrize("name", ["tally", "mean_information", "expected_map", "read_map"])
+def test_signatures_are_readable(name):
+    signature = str(inspect.signature(PUBLIC[name]))
+    assert "ArrayLike" in signature or name == "read_map"
+    # No union that an alias stands for.
+    assert "Buffer" not in signature and "_SupportsArray" not in signature and "typing." not in signature
+    assert len(signature) < 420
+
+
 def test_the_module_says_how_to_begin():
     assert doctest.testmod(mi).failed == 0 and ">>>" in mi.__doc__

@@ -1,8 +1,12 @@
 """The examples run, and fleets have the bits of one pass."""
 
+import copy
+import json
 import os
+import pickle
 import runpy
 import signal
+import subprocess
 import sys
 import time
 from pathlib import Path
@@ -49,6 +53,7 @@ def test_a_bag_without_ros(tmp_path, monkeypatch, capsys, python):
     store = get_typestore(Stores.LATEST)
     types = store.types
     cells = [np.random.default_rng(k).integers(-1, 101, 12).astype(np.int8) for k in range(3)]
+    others = [np.full(12, 7, np.int8), np.full(12, 7, np.int8)]
     stamp = types["builtin_interfaces/msg/Time"](sec=0, nanosec=0)
     header = types["std_msgs/msg/Header"](stamp=stamp, frame_id="map")
     point = types["geometry_msgs/msg/Point"](x=0.0, y=0.0, z=0.0)
@@ -61,13 +66,43 @@ def test_a_bag_without_ros(tmp_path, monkeypatch, capsys, python):
         for k, data in enumerate(cells):
             raw = store.serialize_cdr(kind(header=header, info=info, data=data), kind.__msgtype__)
             writer.write(connection, k * 10**9, raw)
+        connection = writer.add_connection("/other", kind.__msgtype__, typestore=store)
+        for k, data in enumerate(others):
+            raw = store.serialize_cdr(kind(header=header, info=info, data=data), kind.__msgtype__)
+            writer.write(connection, k * 10**9 + 5 * 10**8, raw)
     run("rosbag.py", tmp_path / "bag", monkeypatch=monkeypatch)
     rows = [line.split("\t") for line in capsys.readouterr().out.splitlines()]
     assert [row[0] for row in rows] == ["0.000", "1.000", "2.000"]
     expected = [mi.tally(data, encoding="percent") for data in cells]
     assert [int(row[2]) for row in rows] == [tally.observed for tally in expected]
-    # The last map, by the library's own reader.
-    assert mi.read_map(tmp_path / "bag").tally == expected[-1]
+    # The same by the library's own reader, and the last map.
+    series = mi.read_bag(tmp_path / "bag", topic="/map")
+    assert [row.tally for row in series] == expected and [row.time for row in series] == [0.0, 1.0, 2.0]
+    changed = [np.count_nonzero(cells[k] != cells[k + 1]) for k in range(2)]
+    assert [row.changed for row in series] == [None, *changed]
+    assert {(row.topic, row.shape, row.resolution, row.origin) for row in series} == {("/map", (3, 4), series[0].resolution, (0.0, 0.0))}
+    assert series[0].resolution == pytest.approx(0.05) and series[1].mean_information == expected[1].mean_information
+    assert [(row.time_ns, row.changed) for row in mi.read_bag(tmp_path / "bag", topic="/other")] == [(500_000_000, None), (1_500_000_000, 0)]
+    for travel in (lambda x: pickle.loads(pickle.dumps(x)), copy.deepcopy):
+        assert repr(travel(series)) == repr(series) and travel(series[0]).tally == expected[0]
+    assert mi.read_map(tmp_path / "bag", topic="/map").tally == expected[-1]
+    assert mi.read_map(tmp_path / "bag", topic="/other").tally == mi.tally(others[0], encoding="percent")
+    for read in (mi.read_bag, mi.read_map):
+        with pytest.raises(ValueError, match="/map.*/other"):
+            read(tmp_path / "bag")
+        with pytest.raises(ValueError, match="/map.*/other"):
+            read(tmp_path / "bag", topic="/none")
+    # As the command prints it.
+    printed = subprocess.run(
+        [python, "-m", "mean_information", "bag", str(tmp_path / "bag"), "--topic", "/map", "--format", "json"],
+        capture_output=True,
+        check=True,
+    )
+    rows = json.loads(printed.stdout)
+    assert [row["mean_information"] for row in rows] == [row.mean_information for row in series]
+    assert [(row["time_s"], row["changed_cells"], row["free"]) for row in rows] == [
+        (row.time, row.changed, row.tally.free) for row in series
+    ]
 
 
 @pytest.fixture(scope="module")

@@ -1,5 +1,10 @@
 """Files of the field, and the errors of those that are none."""
 
+import copy
+import errno
+import pickle
+import re
+
 import mean_information as mi
 import numpy as np
 import pytest
@@ -27,6 +32,70 @@ def test_arrays(tmp_path):
     assert mi.read_map(tmp_path / "signs.npy", encoding="mrpt").tally.occupied == 1
 
 
+@pytest.mark.parametrize("dtype", [np.bool_, np.uint8, np.int8, np.int64, np.float64])
+@pytest.mark.parametrize("encoding", ["probability", "percent", "log-odds", "mrpt"])
+def test_what_is_refused_of_an_array_is_refused_of_its_file(dtype, encoding, tmp_path):
+    cells = np.array([[0, 1], [1, 0]]).astype(dtype)
+    np.save(tmp_path / "map.npy", cells)
+    np.savez(tmp_path / "map.npz", cells=cells)
+    try:
+        expected = mi.tally(cells, encoding=encoding)
+    except TypeError as error:
+        for name in ("map.npy", "map.npz", "map.npz:cells"):
+            with pytest.raises(ValueError) as refused:
+                mi.read_map(tmp_path / name, encoding=encoding)
+            assert str(refused.value) == f"{tmp_path / name}: {error}"
+    else:
+        for name in ("map.npy", "map.npz", "map.npz:cells"):
+            assert mi.read_map(tmp_path / name, encoding=encoding).tally == expected
+
+
+@pytest.mark.parametrize("dtype", [np.bool_, np.uint8, np.int8, np.uint16])
+def test_no_encoding_is_guessed_from_the_type_of_a_file(dtype, tmp_path):
+    np.save(tmp_path / "map.npy", np.array([[0, 1]]).astype(dtype))
+    with pytest.raises(ValueError, match=f"map.npy: encoding 'probability' takes floats, not {np.dtype(dtype)}: .* not guessed"):
+        mi.read_map(tmp_path / "map.npy")
+
+
+def test_what_a_kind_of_file_has_no_use_for_is_refused(tmp_path, maps):
+    np.save(tmp_path / "map.npy", np.array([[0.25, 0.5]]))
+    for path, arguments in [
+        (maps / "room.yaml", {"resolution": 0.1}),
+        (maps / "room.yaml", {"encoding": "percent"}),
+        (maps / "room.yaml", {"topic": "/map"}),
+        (tmp_path / "map.npy", {"mode": "raw"}),
+        (tmp_path / "map.npy", {"topic": "/map"}),
+        (tmp_path / "map.gridmap", {"unknown": 0.5}),
+    ]:
+        (name, value), *_ = arguments.items()
+        with pytest.raises(ValueError, match=re.escape(f"{path}: {name} is {value!r}, which is for ")):
+            mi.read_map(path, **arguments)
+    assert mi.read_map(tmp_path / "map.npy", unknown=0.25).tally.unknown == 2
+
+
+def test_what_was_read_travels(maps, tmp_path):
+    read, log = mi.read_map(maps / "room.yaml"), mi.read_scans(maps / "room.log")
+    trajectory = mi.read_trajectory(maps / "room.true.tum")
+    for travel in (lambda x: pickle.loads(pickle.dumps(x)), copy.deepcopy):
+        arrived = travel(read)
+        assert repr(arrived) == repr(read) and arrived.tally == read.tally and arrived.warnings == read.warnings
+        assert (arrived.resolution, arrived.origin, arrived.encoding) == (read.resolution, read.origin, read.encoding)
+        np.testing.assert_array_equal(arrived.cells, read.cells)
+        arrived = travel(trajectory)
+        np.testing.assert_array_equal(arrived.times, trajectory.times)
+        np.testing.assert_array_equal(arrived.poses, trajectory.poses)
+        assert arrived.warnings == trajectory.warnings and repr(arrived) == repr(trajectory)
+        arrived = travel(log)
+        assert len(arrived.scans) == len(log.scans) and set(arrived.trajectories) == set(log.trajectories)
+        assert (arrived.mount, arrived.warnings, repr(arrived)) == (log.mount, log.warnings, repr(log))
+        for ours, theirs in zip(arrived.scans, log.scans, strict=True):
+            for name in ("time", "min_range", "max_range", "laser", "odometry"):
+                assert getattr(ours, name) == getattr(theirs, name), name
+            for name in ("bearings", "ranges"):
+                np.testing.assert_array_equal(getattr(ours, name), getattr(theirs, name))
+            np.testing.assert_array_equal(ours.beams(no_return="free"), theirs.beams(no_return="free"))
+
+
 def test_scans_and_trajectories(maps):
     log = mi.read_scans(maps / "room.log")
     scan = log.scans[0]
@@ -43,22 +112,36 @@ def test_scans_and_trajectories(maps):
 
 
 def test_errors_are_pythons_own_in_the_commands_words(tmp_path, maps):
-    with pytest.raises(FileNotFoundError, match=r"none\.yaml: cannot be read: No such file"):
-        mi.read_map(tmp_path / "none.yaml")
-    with pytest.raises(FileNotFoundError):
-        mi.read_scans(tmp_path / "none.log")
-    with pytest.raises(FileNotFoundError):
-        mi.read_trajectory(tmp_path / "none.tum")
-    with pytest.raises(OSError, match="is a directory"):
-        (tmp_path / "folder.yaml").mkdir()
-        mi.read_map(tmp_path / "folder.yaml")
+    (tmp_path / "folder.yaml").mkdir()
+    for read, name, number in [
+        (mi.read_map, "none.yaml", errno.ENOENT),
+        (mi.read_map, "none.npy", errno.ENOENT),
+        (mi.read_map, "none.npz:cells", errno.ENOENT),
+        (mi.read_map, "none.mcap", errno.ENOENT),
+        (mi.read_bag, "none.mcap", errno.ENOENT),
+        (mi.read_scans, "none.log", errno.ENOENT),
+        (mi.read_trajectory, "none.tum", errno.ENOENT),
+        (mi.read_map, "folder.yaml", errno.EISDIR),
+    ]:
+        path = str(tmp_path / name)
+        with pytest.raises(OSError) as opened:
+            open(path.removesuffix(":cells"))
+        with pytest.raises(type(opened.value)) as refused:
+            read(path)
+        assert (refused.value.errno, refused.value.filename) == (number, opened.value.filename)
+        if number == errno.ENOENT and ":" not in name:
+            assert str(refused.value) == str(opened.value)
+    (tmp_path / "lost.yaml").write_text((maps / "room.yaml").read_text())
+    with pytest.raises(FileNotFoundError, match="and there is no file .*; write the path of the image") as refused:
+        mi.read_map(tmp_path / "lost.yaml")
+    assert (refused.value.errno, refused.value.filename) == (errno.ENOENT, str(tmp_path / "lost.yaml"))
     with pytest.raises(MemoryError, match="raise it with max_cells if the file is meant"):
         mi.read_map(maps / "room.yaml", max_cells=5)
     (tmp_path / "cut.yaml").write_text("image: cut.pgm\nresolution: -1\n")
     with pytest.raises(ValueError, match="cut.yaml: resolution is -1, allowed is a positive number of metres"):
         mi.read_map(tmp_path / "cut.yaml")
     np.save(tmp_path / "wide.npy", np.zeros((2, 2), np.int64))
-    with pytest.raises(ValueError, match="encoding percent reads them as they are"):
+    with pytest.raises(ValueError, match="wide.npy: encoding 'probability' takes floats, not int64"):
         mi.read_map(tmp_path / "wide.npy")
     (tmp_path / "line.tum").write_text("1 2 3\n")
     with pytest.raises(ValueError, match="line.tum"):

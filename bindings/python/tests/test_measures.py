@@ -1,5 +1,6 @@
 """Arrays measured: encodings, axes, masks, and what is refused."""
 
+import pathlib
 import warnings
 
 import mean_information as mi
@@ -100,6 +101,61 @@ def test_encodings_mean_what_they_say():
     assert single.information == float(mi.information(np.float32(0.3)))
 
 
+@pytest.mark.parametrize("encoding", ["probability", "log-odds", "percent", "mrpt"])
+@pytest.mark.parametrize("size", [1, 15, 16, 100, 1023, 1024, 5000])
+def test_many_maps_have_the_bits_of_each(encoding, size):
+    random = np.random.default_rng(size)
+    shape = (size, 7) if size > 1000 else (size, 211)
+    if encoding in ("percent", "mrpt"):
+        cells = random.integers(-1, 101, shape).astype(np.int8)
+        cells[random.random(shape) < 0.3] = -1
+    else:
+        cells = random.random(shape) if encoding == "probability" else random.normal(0, 9, shape)
+        cells[random.random(shape) < 0.3] = 0.5 if encoding == "probability" else 0.0
+        # Information that is rounded to 0 is no unknown cell.
+        cells[0, 0] = 0.5 - 2.0**-54 if encoding == "probability" else 1e-170
+    where = random.random(shape) < 0.6
+    expected = [mi.tally(cells[:, k], encoding=encoding).mean_information for k in range(shape[1])]
+    chosen = [mi.tally(cells[where[:, k], k], encoding=encoding).mean_information for k in range(shape[1])]
+    for layout in (cells, np.asfortranarray(cells), np.repeat(cells, 2, axis=0)[::2]):
+        assert mi.mean_information(layout, encoding=encoding, axis=0).tolist() == expected
+        assert mi.mean_information(layout, encoding=encoding, axis=0, where=where).tolist() == chosen
+    rows = np.ascontiguousarray(cells.T)
+    assert mi.mean_information(rows, encoding=encoding, axis=1).tolist() == expected
+    assert mi.mean_information(rows, encoding=encoding, axis=1, where=where.T).tolist() == chosen
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_masks_of_any_layout(dtype):
+    random = np.random.default_rng(12)
+    cells = random.random((37, 5, 143)).astype(dtype)
+    for share in (0.0, 0.02, 0.5, 0.98, 1.0):
+        where = random.random(cells.shape) < share
+        expected = mi.tally(cells[where])
+        for mask in (where, np.asfortranarray(where), np.repeat(where, 2, axis=2)[..., ::2]):
+            assert mi.tally(cells, where=mask) == expected
+            assert mi.tally(np.asfortranarray(cells), where=mask) == expected
+            assert mi.tally(np.repeat(cells, 2, axis=2)[..., ::2], where=mask) == expected
+        assert mi.tally(np.ma.array(cells, mask=~where)) == expected
+    for mask in (np.array(True), where[:1], where[:, :, :1], where[0, 0], random.random((5, 1)) < 0.5):
+        whole = np.broadcast_to(mask, cells.shape)
+        assert mi.tally(cells, where=mask) == mi.tally(cells[whole])
+        assert mi.tally(cells.T, where=whole.T) == mi.tally(cells[whole])
+    with pytest.raises(ValueError, match=r"cells\[3, 4, 142\] is nan"):
+        cells[3, 4, 142] = np.nan
+        mi.tally(cells, where=np.arange(143) > 140)
+
+
+def test_types_of_results():
+    for dtype, result in [(np.float16, np.float32), (np.float32, np.float32), (np.float64, np.float64)]:
+        cells = np.array([0.25, 0.5], dtype)
+        assert type(mi.mean_information(cells, axis=0)) is result
+        assert mi.mean_information(cells[None], axis=1).dtype == result
+        assert mi.mean_information(cells, axis=0, keepdims=True).dtype == result
+        assert type(mi.mean_information(cells)) is float
+    assert type(mi.mean_information([-1, 0], encoding="percent", axis=0)) is np.float64
+
+
 def test_results_of_no_cells():
     for cells in (np.empty(0), np.empty((0, 3)), [0.5, 0.5]):
         assert mi.mean_information(cells) == 0.0
@@ -135,8 +191,39 @@ def test_its_index_is_that_of_the_whole_array():
         mi.tally(np.array(np.nan))
     with pytest.raises(ValueError, match=r"cells\[1, 0\] is 101, allowed is a percentage from 0 to 100, or -1"):
         mi.tally(np.array([[1], [101]], np.int8), encoding="percent")
-    with pytest.raises(ValueError, match=r"cells\[1\] is 300, allowed for encoding 'percent' are values of a byte"):
+    with pytest.raises(ValueError, match=r"cells\[1\] is 300, allowed is a percentage from 0 to 100, or -1 for unknown$"):
         mi.tally([1, 300], encoding="percent")
+    with pytest.raises(ValueError, match=r"cells\[1\] is 300, allowed are values of a byte"):
+        mi.tally([1, 300], encoding="mrpt")
+
+
+def test_bytes_without_sign_are_shown_without():
+    grey = np.array([[0, 254], [205, 100]], np.uint8)
+    for measure in (mi.tally, mi.mean_information):
+        with pytest.raises(ValueError, match=r"cells\[0, 1\] is 254, allowed is a percentage from 0 to 100, or 255 for unknown; "):
+            measure(grey, encoding="percent")
+    assert mi.mean_information(np.array([[0, 255], [50, 83]], np.uint8), encoding="percent", axis=1).tolist() == [
+        1.0,
+        mi.information(0.83),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("value", "words"),
+    [
+        (50.0, r'; of percentages \(ROS\) in floats, cells.astype\(np.int8\) with encoding="percent"$'),
+        (-1.0, r"; np.where\(cells < 0, 0.5, cells\) makes -1 unknown$"),
+        (1.0000000001, r"; np.clip\(cells, 0, 1\) cuts rounding off$"),
+        (17.3, "a probability from 0 to 1$"),
+    ],
+)
+def test_a_refusal_says_what_may_help(value, words):
+    cells = np.array([0.5, 1.0, value])
+    with pytest.raises(ValueError, match=words):
+        mi.tally(cells)
+    if value == 50.0:
+        # No circle: what the words say works.
+        mi.tally(np.array([0.0, 100.0, value]).astype(np.int8), encoding="percent")
 
 
 @pytest.mark.parametrize(
@@ -144,7 +231,8 @@ def test_its_index_is_that_of_the_whole_array():
     [
         ([0, 1], "probability", "takes floats, not int64.*encoding=\"percent\""),
         ([True], "log-odds", "takes floats, not bool"),
-        ([0.5], "percent", "takes integers, not float64; floats are"),
+        ([0.5], "percent", r"takes integers, not float64; cells.astype\(np.int8\) .* cells / 100 are probabilities"),
+        ([0.5], "mrpt", r"takes integers, not float64; cells.astype\(np.int8\) makes them integers, if they are whole numbers$"),
         ([True], "mrpt", "takes integers, not bool; np.where"),
         (np.array([0.5], object), "probability", "array of floats, not of object"),
         (["0.5"], "probability", "array of floats, not of <U3"),
@@ -168,8 +256,14 @@ def test_other_arguments_are_refused():
         mi.mean_information([0.5], axis=1)
     with pytest.raises(ValueError, match="axis"):
         mi.mean_information([[0.5]], axis=(0, -2))
+    for axis in (1.0, "0", (0, 1.5)):
+        with pytest.raises(TypeError, match="axis is .*, allowed are an integer, a sequence of integers, and None"):
+            mi.mean_information([[0.5]], axis=axis)
     with pytest.raises(TypeError):
         mi.mean_information([0.5], "probability")
+    for file in ("map.npy", pathlib.Path("map.npy")):
+        with pytest.raises(TypeError, match=r"cells is .*map.npy.*, allowed is an array; read_map\(.*\).tally measures a file"):
+            mi.tally(file)
 
 
 def test_no_warning_is_given():

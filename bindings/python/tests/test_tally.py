@@ -52,6 +52,18 @@ def test_single_and_double_precision_stay_apart():
     assert mi.Tally() + double == double
 
 
+def test_an_empty_tally_takes_what_numpy_takes_for_a_type():
+    for dtype in ("float32", np.float32, np.dtype("f4"), mi.tally(np.float32([0.5])).dtype):
+        assert mi.Tally(dtype).dtype == np.float32
+    assert mi.Tally().dtype == mi.Tally(float).dtype == np.float64
+    for dtype in ("float16", np.int8):
+        with pytest.raises(ValueError, match="dtype is .*, allowed are float64 and float32"):
+            mi.Tally(dtype)
+    for cells in (np.array([0.25, 0.5]), [0.25, 0.5], 0.25):
+        with pytest.raises(TypeError, match=r"tally\(cells\) measures an array"):
+            mi.Tally(cells)
+
+
 def test_bytes_of_no_tally_are_refused():
     data = mi.tally([0.25, 0.5]).to_bytes()
     for bit in range(8 * len(data)):
@@ -73,6 +85,7 @@ def test_bytes_of_no_tally_are_refused():
 def test_a_tally_is_immutable_and_says_something():
     tally = mi.tally([0.25, 0.5, 0.96875])
     assert repr(tally) == "<Tally: 0.49404977561407626 bits per observed cell; 2 observed (1 free, 1 occupied), 1 unknown>"
+    assert repr(mi.tally([1.0])).startswith("<Tally: 1.0 bits per observed cell; ")
     for name in ("entropy", "observed", "other"):
         with pytest.raises(AttributeError):
             setattr(tally, name, 1)

@@ -87,10 +87,10 @@ pub use error::{Error, ErrorKind, Place};
 pub use map::Map;
 pub use options::{ArrayEncoding, MAX_CELLS, MAX_COUNTED, Mode, Options, Semantics};
 pub use read::{
-    file_of, read_filter_log, read_filter_log_from, read_map, read_map_contents, read_map_contents_from,
-    read_map_from, read_octree, read_octree_from, read_particles, read_particles_from, read_scans,
-    read_scans_from, read_selected_scans, read_submaps, read_submaps_from, read_trajectory,
-    read_trajectory_from, read_weights, read_weights_from,
+    file_of, read_array_type_from, read_filter_log, read_filter_log_from, read_map, read_map_contents,
+    read_map_contents_from, read_map_from, read_octree, read_octree_from, read_particles,
+    read_particles_from, read_scans, read_scans_from, read_selected_scans, read_submaps, read_submaps_from,
+    read_trajectory, read_trajectory_from, read_weights, read_weights_from,
 };
 pub use source::{Disk, Memory, Opened, Source};
 pub use trajectory::{Association, Trajectory, tum};

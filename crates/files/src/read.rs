@@ -136,6 +136,17 @@ fn with_array<T>(
     Ok(result)
 }
 
+/// Reads the type of the elements of the array at `path` of `source`, as NumPy names it; `None` for the name of another file.
+///
+/// # Errors
+/// As [`npy::read_type`].
+pub fn read_array_type_from(source: &impl Source, path: &Path) -> Result<Option<String>, Error> {
+    let is_array =
+        npz::split(path).is_some() || path.extension().is_some_and(|end| end.eq_ignore_ascii_case("npy"));
+    let read = || with_array(source, path, |array| npy::read_type(&mut array.input));
+    is_array.then(read).transpose().map_err(|error| error.in_file(path))
+}
+
 /// Reads a map whose cells go where `target` puts them.
 fn read_as<T: Target>(
     source: &impl Source,

@@ -8,15 +8,17 @@
   `occupancy_from_log_odds`, `log_odds_from_occupancy`.
 * Maps are measured by `tally` and `mean_information`, a particle filter's maps together by `expected_map`.
 * `ScanMap` makes maps of range scans; `limit` is what the measure of one scan tends to.
-* `read_map`, `read_scans` and `read_trajectory` read the files of the field; `meaninfo` is the command.
+* `read_map`, `read_bag`, `read_scans` and `read_trajectory` read the files of the field; `meaninfo` is the command.
 """
 
 # "As" says to type checkers that a name is public.
 from ._arrays import Encoding as Encoding
 from ._expected import expected_map as expected_map
+from ._files import read_map as read_map
 from ._measures import mean_information as mean_information
 from ._measures import tally as tally
 from ._native import (
+    BagMap as BagMap,
     ExpectedMap as ExpectedMap,
     GaussianSensor as GaussianSensor,
     Limit as Limit,
@@ -34,7 +36,7 @@ from ._native import (
     limit as limit,
     log_odds_from_occupancy as log_odds_from_occupancy,
     occupancy_from_log_odds as occupancy_from_log_odds,
-    read_map as read_map,
+    read_bag as read_bag,
     read_scans as read_scans,
     read_trajectory as read_trajectory,
 )

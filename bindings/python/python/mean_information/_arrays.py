@@ -1,6 +1,9 @@
 """Arrays as the compiled part takes them: the element type of their encoding, native and aligned; and NumPy's axes."""
 
+from __future__ import annotations  # names in help(), not what they stand for
+
 import operator
+import os
 from collections.abc import Sequence
 from typing import Any, Literal, TypeAlias
 
@@ -18,42 +21,58 @@ _Array: TypeAlias = npt.NDArray[Any]
 
 def prepared(cells: npt.ArrayLike, encoding: str) -> _Array:
     """Return the cells as an array of the element type of their encoding; without a copy where they are one."""
-    if encoding not in _ENCODINGS:
-        allowed = ", ".join(map(repr, _ENCODINGS))
-        raise ValueError(f"encoding is {encoding!r}, allowed are {allowed}")
+    known(encoding)
+    if isinstance(cells, (str, bytes, os.PathLike)):
+        raise TypeError(f"cells is {cells!r}, allowed is an array; read_map({cells!r}).tally measures a file")
     array = np.asarray(cells)
     dtype = array.dtype
+    if words := refusal(dtype, encoding):
+        raise TypeError(words)
     if encoding in _BYTES:
         array = _as_bytes(array, encoding)
-    elif dtype.kind != "f":
-        raise TypeError(
-            f"encoding {encoding!r} takes floats, not {dtype}: what integers and booleans mean is not guessed. Percentages "
-            '(ROS) are encoding="percent", MRPT\'s bytes encoding="mrpt"; if the numbers are meant as they are, '
-            "cells.astype(float)"
-            if dtype.kind in "biu"
-            else f"encoding {encoding!r} takes an array of floats, not of {dtype}"
-        )
-    elif dtype.itemsize > 8:
-        raise TypeError(f"encoding {encoding!r} takes float64, float32 and float16, not {dtype}: cells.astype(float)")
     elif dtype.itemsize == 2:
         array = array.astype(np.float32)
     return np.require(array, array.dtype.newbyteorder("="), "A")
 
 
+def known(encoding: str) -> None:
+    """Refuse a word that names no encoding."""
+    if encoding not in _ENCODINGS:
+        raise ValueError(f"encoding is {encoding!r}, allowed are {', '.join(map(repr, _ENCODINGS))}")
+
+
+def refusal(dtype: np.dtype[Any], encoding: str) -> str | None:
+    """Say why an encoding has no numbers of a type; None if it has."""
+    if encoding in _BYTES:
+        hint = {
+            "b": "; np.where(cells, 100, 0) makes percentages",
+            "f": "; cells.astype(np.int8) makes them integers, if they are whole numbers"
+            + ("; of others, cells / 100 are probabilities, if 0.5 stands for unknown" if encoding == "percent" else ""),
+        }
+        return None if dtype.kind in "iu" else f"encoding {encoding!r} takes integers, not {dtype}{hint.get(dtype.kind, '')}"
+    if dtype.kind == "f":
+        words = f"encoding {encoding!r} takes float64, float32 and float16, not {dtype}: cells.astype(float)"
+        return None if dtype.itemsize <= 8 else words
+    if dtype.kind in "biu":
+        return (
+            f"encoding {encoding!r} takes floats, not {dtype}: what integers and booleans mean is not guessed. Percentages "
+            '(ROS) are encoding="percent", MRPT\'s bytes encoding="mrpt"; if the numbers are meant as they are, '
+            "cells.astype(float)"
+        )
+    return f"encoding {encoding!r} takes an array of floats, not of {dtype}"
+
+
 def _as_bytes(array: _Array, encoding: str) -> _Array:
-    """Return integers as int8: bytes by their bits, wider ones by their values."""
-    dtype = array.dtype
-    if dtype.kind not in "iu":
-        hint = {"f": '; floats are encoding="probability" or "log-odds"', "b": "; np.where(cells, 100, 0) makes percentages"}
-        raise TypeError(f"encoding {encoding!r} takes integers, not {dtype}{hint.get(dtype.kind, '')}")
-    if dtype.itemsize == 1:
-        return array.view(np.int8)
+    """Return integers as bytes: those of 8 bits as they are, wider ones by their values."""
+    if array.dtype.itemsize == 1:
+        return array if encoding == "percent" else array.view(np.int8)
     with np.errstate(all="ignore"):
         narrow = array.astype(np.int8)
     if not np.array_equal(narrow, array):
         index = tuple(map(int, np.argwhere(narrow != array)[0]))
         place = f"[{', '.join(map(str, index))}]" if index else ""
-        raise ValueError(f"cells{place} is {array[index]}, allowed for encoding {encoding!r} are values of a byte, -128 to 127")
+        words = {"percent": "is a percentage from 0 to 100, or -1 for unknown", "mrpt": "are values of a byte, -128 to 127"}
+        raise ValueError(f"cells{place} is {array[index]}, allowed {words[encoding]}")
     return narrow
 
 
@@ -75,10 +94,11 @@ def axes_of(axis: int | Sequence[int] | None, ndim: int) -> list[int] | None:
     """Return axes by their numbers from 0 on."""
     if axis is None:
         return None
+    given = [axis] if np.ndim(axis) == 0 else list(axis)  # type: ignore[arg-type]
     try:
-        given = [operator.index(axis)]  # type: ignore[arg-type]
+        given = [operator.index(one) for one in given]  # type: ignore[arg-type]
     except TypeError:
-        given = [operator.index(one) for one in axis]  # type: ignore[union-attr]
+        raise TypeError(f"axis is {axis!r}, allowed are an integer, a sequence of integers, and None") from None
     for one in given:
         if not -ndim <= one < ndim:
             raise AxisError(one, ndim)

@@ -1,12 +1,14 @@
 """The expected map of a particle filter."""
 
+from __future__ import annotations  # names in help(), not what they stand for
+
 from collections.abc import Iterable
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _native
-from ._arrays import Encoding, prepared
+from ._arrays import Encoding, known, prepared
 from ._native import ExpectedMap
 
 
@@ -36,8 +38,9 @@ def expected_map(
     Raises
     ------
     TypeError, ValueError
-        As `tally`, for masked cells, and for weights that are negative, NaN, infinite, or all zero, or not one for each
-        map.
+        As `tally`, where the first cell that is not allowed is named by its map and its index in that, as
+        ``particles[1][2, 0]``; for masked cells; for weights that are negative, NaN, infinite, or all zero, or not one for
+        each map.
 
     Notes
     -----
@@ -53,6 +56,7 @@ def expected_map(
     >>> expected.mean_information, expected.mean_of_particles
     (0.14285156257162834, 0.3895071364855195)
     """
+    known(encoding)
     if not isinstance(particles, np.ndarray):
         particles = list(particles)  # type: ignore[arg-type]
     if any(np.ma.is_masked(particle) for particle in particles):
@@ -63,7 +67,8 @@ def expected_map(
         shown = ", ".join(map(str, sorted(shapes)))
         raise ValueError(f"particles are maps of one shape (rows, columns), not of {shown}")
     if len({particle.dtype for particle in maps}) > 1:
-        raise TypeError("particles are arrays of one type: float32 or float64")
+        types = ", ".join(sorted({str(particle.dtype) for particle in maps}))
+        raise TypeError(f"particles are arrays of one type, not of {types}")
     given = np.ones(len(maps)) if weights is None else np.asarray(weights, dtype=np.float64)
     if given.ndim != 1:
         raise ValueError(f"weights are a list of numbers, not an array of {given.ndim} dimensions")

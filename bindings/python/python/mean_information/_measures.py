@@ -1,5 +1,7 @@
 """Arrays measured."""
 
+from __future__ import annotations  # names in help(), not what they stand for
+
 from collections.abc import Sequence
 from typing import Any
 
@@ -28,7 +30,7 @@ def tally(cells: npt.ArrayLike, *, encoding: Encoding = "probability", where: np
     Returns
     -------
     Tally
-        With the precision of the cells: float32 for float32 and float16, else float64.
+        With the precision that cells are computed in: float32 for float32 and float16, float64 for all else.
 
     Raises
     ------
@@ -80,7 +82,8 @@ def mean_information(
     Returns
     -------
     float or ndarray
-        A float without `axis` and `keepdims`, else an array of the precision of the cells. 0 where no cell is observed.
+        A float without `axis` and `keepdims`; else an array of float32 for cells of float32 and float16, of float64 for all
+        others, or a scalar of that type where no axis is left. 0 where no cell is observed.
 
     Raises
     ------
@@ -114,6 +117,5 @@ def mean_information(
     result = _native.mean_information(array, encoding, axes, mask)
     if axes is None:
         return result
-    if keepdims:
-        return np.expand_dims(result, tuple(sorted(axes)))
-    return result
+    # As NumPy's reductions, a scalar where no axis is left.
+    return np.expand_dims(result, tuple(sorted(axes))) if keepdims else result[()]

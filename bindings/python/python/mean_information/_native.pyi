@@ -20,7 +20,7 @@ occupancy_from_log_odds: np.ufunc
 
 @final
 class Tally:
-    def __new__(cls, dtype: Literal["float64", "float32"] = "float64") -> Tally: ...
+    def __new__(cls, dtype: npt.DTypeLike | None = None) -> Tally: ...
     @property
     def entropy(self) -> float: ...
     @property
@@ -113,7 +113,7 @@ class ScanMap:
     ) -> ScanMap: ...
     def insert(
         self,
-        pose: tuple[float, float, float],
+        pose: Sequence[float] | npt.NDArray[Any],
         bearings: npt.ArrayLike,
         ranges: npt.ArrayLike,
         *,
@@ -121,7 +121,7 @@ class ScanMap:
     ) -> None: ...
     def remove(
         self,
-        pose: tuple[float, float, float],
+        pose: Sequence[float] | npt.NDArray[Any],
         bearings: npt.ArrayLike,
         ranges: npt.ArrayLike,
         *,
@@ -139,6 +139,8 @@ class ScanMap:
     def resolution(self) -> float: ...
     @property
     def scans(self) -> int: ...
+    def __copy__(self) -> ScanMap: ...
+    def __deepcopy__(self, memo: Any, /) -> ScanMap: ...
 
 @final
 class Map:
@@ -152,6 +154,29 @@ class Map:
     def origin(self) -> tuple[float, float]: ...
     @property
     def tally(self) -> Tally: ...
+    @property
+    def warnings(self) -> list[str]: ...
+
+@final
+class BagMap:
+    @property
+    def time(self) -> float: ...
+    @property
+    def time_ns(self) -> int: ...
+    @property
+    def topic(self) -> str: ...
+    @property
+    def shape(self) -> tuple[int, int]: ...
+    @property
+    def resolution(self) -> float: ...
+    @property
+    def origin(self) -> tuple[float, float]: ...
+    @property
+    def tally(self) -> Tally: ...
+    @property
+    def mean_information(self) -> float: ...
+    @property
+    def changed(self) -> int | None: ...
     @property
     def warnings(self) -> list[str]: ...
 
@@ -202,16 +227,25 @@ def limit(
     weight: Literal["radial", "area"] = "radial",
     method: Literal["closed-form", "adaptive", "rigorous"] = "closed-form",
 ) -> Limit: ...
+def kind_of_map(path: str | PathLike[str]) -> tuple[Literal["image", "array", "bag", "other"], str | None]: ...
 def read_map(
     path: str | PathLike[str],
     *,
-    semantics: Literal["nav2", "nav2-humble", "ros1"] = "nav2",
-    mode: Literal["trinary", "scale", "raw", "probability"] | None = None,
+    semantics: str = "nav2",
+    mode: str | None = None,
     unknown: float | None = None,
-    encoding: Literal["probability", "percent", "log-odds", "mrpt"] | None = None,
+    encoding: str | None = None,
     resolution: float | None = None,
+    topic: str | None = None,
     max_cells: int | None = None,
 ) -> Map: ...
+def read_bag(
+    path: str | PathLike[str],
+    *,
+    topic: str | None = None,
+    costmaps: bool = False,
+    max_cells: int | None = None,
+) -> list[BagMap]: ...
 def read_scans(
     path: str | PathLike[str], *, max_range: float | None = None, time: Literal["sent", "logged"] = "sent"
 ) -> ScanLog: ...

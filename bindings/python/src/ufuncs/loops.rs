@@ -17,10 +17,14 @@ use std::ptr;
 /// The numbers that are computed at once, and those for which less memory is cleared.
 const MANY: usize = 1024;
 const FEW: usize = 16;
+/// The numbers that are looked at side by side for NaN.
+const LANES: usize = 16;
 
 /// A number of an array, and the float that it is computed in.
 trait Number: Copy {
     type Float: Real;
+    /// Whether it is that float itself, so that bytes may be copied.
+    const IS_FLOAT: bool;
 
     fn widened(self) -> Self::Float;
     fn rounded(x: Self::Float) -> Self;
@@ -28,6 +32,7 @@ trait Number: Copy {
 
 impl<T: Real> Number for T {
     type Float = T;
+    const IS_FLOAT: bool = true;
 
     fn widened(self) -> T {
         self
@@ -45,6 +50,7 @@ struct Half(f16);
 
 impl Number for Half {
     type Float = f32;
+    const IS_FLOAT: bool = false;
 
     fn widened(self) -> f32 {
         self.0.to_f32()
@@ -105,7 +111,7 @@ unsafe fn along<F: Elementwise, N: Number, const SIZE: usize>(
             }
         }
         F::apply(input, output);
-        is_invalid |= input.iter().zip(&*output).fold(false, |any, (x, y)| any | (y.is_nan() & !x.is_nan()));
+        is_invalid |= has_nan(output) && input.iter().zip(&*output).any(|(x, y)| y.is_nan() && !x.is_nan());
         // SAFETY: as above, of `to`.
         unsafe {
             if write == size_of::<N>() as npy_intp {
@@ -122,12 +128,29 @@ unsafe fn along<F: Elementwise, N: Number, const SIZE: usize>(
     is_invalid
 }
 
+/// Tells whether there is a NaN: in lanes without branches, since there is hardly ever one.
+fn has_nan<T: Real>(numbers: &[T]) -> bool {
+    let mut lanes = [false; LANES];
+    let (rows, rest) = numbers.as_chunks::<LANES>();
+    for row in rows {
+        for (any, x) in lanes.iter_mut().zip(row) {
+            *any |= x.is_nan();
+        }
+    }
+    lanes.contains(&true) || rest.iter().any(|x| x.is_nan())
+}
+
 /// Reads numbers that stand `step` bytes apart.
 ///
 /// # Safety
 /// There are as many numbers at `from` as in `input`, aligned or not.
 #[inline(always)]
 unsafe fn gather<N: Number>(input: &mut [N::Float], from: *const c_char, step: npy_intp) {
+    if N::IS_FLOAT && step == size_of::<N>() as npy_intp {
+        // SAFETY: the caller's promise; numbers side by side are the bytes of as many floats, any of which are floats.
+        unsafe { ptr::copy_nonoverlapping(from.cast(), input.as_mut_ptr().cast::<u8>(), size_of_val(input)) };
+        return;
+    }
     for (k, x) in input.iter_mut().enumerate() {
         let place = from.wrapping_offset(step.wrapping_mul(k as npy_intp)).cast::<N>();
         // SAFETY: the caller's promise. Another thread that writes meanwhile may leave any number here, all of which are allowed.
@@ -141,6 +164,11 @@ unsafe fn gather<N: Number>(input: &mut [N::Float], from: *const c_char, step: n
 /// There is room for as many numbers at `to` as are in `output`, aligned or not.
 #[inline(always)]
 unsafe fn scatter<N: Number>(output: &[N::Float], to: *mut c_char, step: npy_intp) {
+    if N::IS_FLOAT && step == size_of::<N>() as npy_intp {
+        // SAFETY: as in `gather`.
+        unsafe { ptr::copy_nonoverlapping(output.as_ptr().cast::<u8>(), to.cast(), size_of_val(output)) };
+        return;
+    }
     for (k, &x) in output.iter().enumerate() {
         let place = to.wrapping_offset(step.wrapping_mul(k as npy_intp)).cast::<N>();
         // SAFETY: the caller's promise.

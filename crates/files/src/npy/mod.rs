@@ -10,7 +10,7 @@ mod watch;
 mod weights;
 mod write;
 
-pub use reading::{read, read_contents};
+pub use reading::{read, read_contents, read_type};
 pub use stack::{MapsVisitor, read_stack};
 pub use weights::read_weights;
 pub use write::write;

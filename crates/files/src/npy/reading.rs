@@ -27,6 +27,14 @@ pub fn read(mut input: impl Read, length: u64, options: &Options) -> Result<Map,
     Ok(Map { cells, resolution: options.resolution, warnings, files: Vec::new() })
 }
 
+/// Reads the type of the elements of an array of maps from its header, as NumPy names it: "float32".
+///
+/// # Errors
+/// An [`Error`] if this is no `.npy` file, or holds elements that no map has.
+pub fn read_type(input: impl Read) -> Result<String, Error> {
+    Header::read(input, header::MAPS).map(|header| header.element.name())
+}
+
 /// Takes the one map of a stack, and what there is to say of it.
 struct OnlyMap;
 

@@ -1,8 +1,11 @@
 //! Files from memory, and what the sources of the package do not say.
 
 use crate::support::{Nobody, percents};
-use mean_information_files::{Contents, Counted, Memory, Options, read_map_contents_from, read_map_from};
-use mean_information_test_support::formats::{Folder, pgm, yaml};
+use mean_information_files::{
+    Contents, Counted, ErrorKind, Memory, Options, read_array_type_from, read_map_contents_from,
+    read_map_from,
+};
+use mean_information_test_support::formats::{Folder, npy, pgm, yaml};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -28,6 +31,23 @@ fn a_map_in_memory_is_the_map_on_the_disk() {
     let path = folder.write("room.yaml", yaml("room.pgm", "negate: 0\n"));
     let map = mean_information_files::read_map(&path, &Options::default()).unwrap();
     assert_eq!(percents(&map), [100, 100, 100, 100, 0, -1]);
+}
+
+/// Who asks before a map is read decides by it what its numbers may mean.
+#[test]
+fn the_type_of_an_array_is_known_before_its_cells_are_read() {
+    let mut files = Memory::new();
+    for (name, element) in
+        [("f8", "float64"), ("f4", "float32"), ("i1", "int8"), ("u1", "uint8"), ("b1", "bool")]
+    {
+        let order = if name.ends_with('1') { '|' } else { '<' };
+        files.add("map.NPY", npy(&format!("'{order}{name}'"), false, "(2, 3)", &[]));
+        let found = read_array_type_from(&files, Path::new("map.NPY")).unwrap();
+        assert_eq!(found.as_deref(), Some(element));
+    }
+    assert_eq!(read_array_type_from(&files, Path::new("none.yaml")).unwrap(), None);
+    let refused = read_array_type_from(&files, Path::new("none.npy")).unwrap_err();
+    assert_eq!((refused.kind(), refused.file()), (ErrorKind::NotFound, Some(Path::new("none.npy"))));
 }
 
 /// The Rust files of a folder and those within it.

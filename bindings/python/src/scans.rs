@@ -1,55 +1,17 @@
-//! Files of the field, read.
+//! Logs of range scans and trajectories, read.
 
-use crate::errors::{in_python, of_file};
+use crate::errors::{count, in_python, of_file, refused};
 use crate::interruptible::run;
 use crate::limit::choice;
-use crate::long_work::watched;
-use crate::tally::PyTally;
+use crate::pickled::{Made, made};
 use crate::trajectory::{PyTrajectory, numbers};
-use mean_information_files::scans::{Bearings, Frame, RangeScan, ScanLog, ScanOptions, TimeField};
-use mean_information_files::{
-    ArrayEncoding, Cells, Map, Mode, Options, Semantics, Warning, bags, read_map_from, read_scans_from,
-    read_trajectory_from, with_grid,
-};
+use mean_information::scan::Pose;
+use mean_information_files::scans::{Bearings, Frame, RangeScan, Reading, ScanLog, ScanOptions, TimeField};
+use mean_information_files::{Warning, read_scans_from, read_trajectory_from};
 use mean_information_report::words::in_words;
-use numpy::{PyArray1, PyArrayMethods};
+use numpy::PyArray1;
 use pyo3::prelude::*;
 use std::path::PathBuf;
-
-/// A map as it was read.
-///
-/// Attributes
-/// ----------
-/// cells : ndarray, shape (rows, columns)
-///     The cells as they are stored; row 0 is the lowest.
-/// encoding : str
-///     What they are: for `tally(map.cells, encoding=map.encoding)`.
-/// resolution : float or None
-///     The side of a cell in metres; None if the file does not say.
-/// origin : tuple of float
-///     x and y of the lower left corner in metres.
-/// tally : Tally
-///     The measures of the map.
-/// warnings : list of str
-///     Signs that the map means less than it seems.
-#[pyclass(frozen, get_all, name = "Map", module = "mean_information")]
-pub(crate) struct PyMap {
-    cells: Py<PyAny>,
-    encoding: &'static str,
-    resolution: Option<f64>,
-    origin: (f64, f64),
-    tally: Py<PyTally>,
-    warnings: Vec<String>,
-}
-
-#[pymethods]
-impl PyMap {
-    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
-        let shape = self.cells.bind(py).getattr("shape")?;
-        let tally = self.tally.bind(py).repr()?;
-        Ok(format!("<Map of shape {shape}, {}: {tally}>", self.encoding))
-    }
-}
 
 /// A log of range scans.
 ///
@@ -74,8 +36,27 @@ pub(crate) struct PyScanLog {
 #[pymethods]
 impl PyScanLog {
     fn __repr__(&self) -> String {
-        format!("<ScanLog of {} scans>", self.scans.len())
+        format!("<ScanLog of {}>", count(self.scans.len() as u64, "scan"))
     }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Made<'py, LogState>> {
+        let scans = self.scans.iter().map(|scan| scan.clone_ref(py)).collect();
+        made(py, "_scan_log", (scans, self.trajectories.clone_ref(py), self.mount, self.warnings.clone()))
+    }
+}
+
+/// What pickle keeps of a log.
+type LogState = (Vec<Py<PyRangeScan>>, Py<PyAny>, Option<(f64, f64, f64)>, Vec<String>);
+
+/// Makes a log of what pickle has kept.
+#[pyfunction]
+pub(crate) fn _scan_log(
+    scans: Vec<Py<PyRangeScan>>,
+    trajectories: Py<PyAny>,
+    mount: Option<(f64, f64, f64)>,
+    warnings: Vec<String>,
+) -> PyScanLog {
+    PyScanLog { scans, trajectories, mount, warnings }
 }
 
 /// A scan as a log has it: for ``ScanMap.insert(pose, scan.bearings, scan.beams(), max_range=scan.max_range)``.
@@ -130,7 +111,6 @@ impl PyRangeScan {
     /// ndarray of float64, shape (n,)
     #[pyo3(signature = (*, no_return="left-out"))]
     fn beams<'py>(&self, py: Python<'py>, no_return: &str) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        use mean_information_files::scans::Reading;
         let without = match no_return {
             "left-out" => f64::NAN,
             "free" => f64::INFINITY,
@@ -165,114 +145,56 @@ impl PyRangeScan {
     }
 
     fn __repr__(&self) -> String {
-        format!("<RangeScan of {} beams at {} s>", self.0.ranges().len(), self.0.time())
+        format!("<RangeScan of {} at {:?} s>", count(self.0.ranges().len() as u64, "beam"), self.0.time())
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Made<'py, ScanState<'py>>> {
+        let even = match *self.0.bearings() {
+            Bearings::Even { start, increment } => Some((start, increment)),
+            Bearings::Each(_) => None,
+        };
+        let bearings = even.is_none().then(|| self.bearings(py));
+        let numbers = (self.0.time(), even, bearings, self.ranges(py));
+        made(py, "_range_scan", (numbers, self.0.limits().into(), self.laser(), self.odometry()))
     }
 }
 
+/// The time, even bearings or others, and the ranges, as pickle keeps them.
+type Numbers<A> = (f64, Option<(f64, f64)>, Option<A>, A);
+/// What pickle keeps of a scan: numbers, least and greatest range, poses.
+type ScanState<'py> =
+    (Numbers<Bound<'py, PyArray1<f64>>>, (f64, f64), Option<(f64, f64, f64)>, Option<(f64, f64, f64)>);
+
+/// Makes a scan of what pickle has kept.
+#[pyfunction]
+pub(crate) fn _range_scan(
+    numbers: Numbers<Vec<f64>>,
+    limits: (f64, f64),
+    laser: Option<(f64, f64, f64)>,
+    odometry: Option<(f64, f64, f64)>,
+) -> PyResult<PyRangeScan> {
+    let (time, even, bearings, ranges) = numbers;
+    let bearings = match even {
+        Some((start, increment)) => Bearings::Even { start, increment },
+        None => Bearings::Each(bearings.unwrap_or_default().into()),
+    };
+    let pose = |(x, y, theta): (f64, f64, f64)| Pose::new(x, y, theta).map_err(refused);
+    let mut scan = RangeScan::new(time, bearings, ranges, limits.into()).map_err(of_file)?;
+    if let Some(laser) = laser {
+        scan = scan.with_laser(pose(laser)?);
+    }
+    if let Some(odometry) = odometry {
+        scan = scan.with_odometry(pose(odometry)?);
+    }
+    Ok(PyRangeScan(scan))
+}
+
 /// Returns warnings in words, with options as Python's arguments.
-fn words(warnings: &[Warning]) -> Vec<String> {
+pub(crate) fn words(warnings: &[Warning]) -> Vec<String> {
     in_words(warnings).iter().map(|text| in_python(text)).collect()
 }
 
-/// Read a map: a ROS yaml with its image, an array of NumPy, MRPT's grid map, the last map of a bag.
-///
-/// Parameters
-/// ----------
-/// path : path-like
-///     `.yaml`, `.npy`, `.npz` (``FILE.npz:KEY``), `.gridmap`, `.gridmap.gz`, `.mcap`, `.db3`, `.bag`.
-/// semantics : {"nav2", "nav2-humble", "ros1"}
-///     The loader whose rules turn the grey levels of a ROS map into percentages.
-/// mode : {"trinary", "scale", "raw", "probability"}, optional
-///     How grey levels are meant; the file's own mode by default.
-/// unknown : float, optional
-///     The value that means unknown: a grey level with mode "probability", or a number of an array of floats.
-/// encoding : {"probability", "percent", "log-odds", "mrpt"}, optional
-///     What the numbers of an `.npy` array are; by default floats are probabilities and int8 percentages.
-/// resolution : float, optional
-///     The side of a cell of an `.npy` array, in metres.
-/// max_cells : int, optional
-///     Larger maps are refused before any cell is read; 2**28 by default.
-///
-/// Returns
-/// -------
-/// Map
-///
-/// Raises
-/// ------
-/// FileNotFoundError, OSError
-///     If the file cannot be read.
-/// MemoryError
-///     If the map is too large.
-/// ValueError
-///     If the file is damaged, or no map; in the words of the command.
-#[pyfunction]
-#[pyo3(signature = (path, *, semantics="nav2", mode=None, unknown=None, encoding=None, resolution=None, max_cells=None))]
-#[expect(clippy::too_many_arguments, reason = "the options of the command")]
-pub(crate) fn read_map(
-    py: Python<'_>,
-    path: PathBuf,
-    semantics: &str,
-    mode: Option<&str>,
-    unknown: Option<f64>,
-    encoding: Option<&str>,
-    resolution: Option<f64>,
-    max_cells: Option<u64>,
-) -> PyResult<PyMap> {
-    let semantics = match semantics {
-        "nav2" => Semantics::Nav2,
-        "nav2-humble" => Semantics::Nav2Humble,
-        "ros1" => Semantics::Ros1,
-        _ => return Err(choice("semantics", semantics, "'nav2', 'nav2-humble' and 'ros1'")),
-    };
-    let mode = match mode {
-        None => None,
-        Some("trinary") => Some(Mode::Trinary),
-        Some("scale") => Some(Mode::Scale),
-        Some("raw") => Some(Mode::Raw),
-        Some("probability") => Some(Mode::Probability),
-        Some(mode) => return Err(choice("mode", mode, "'trinary', 'scale', 'raw' and 'probability'")),
-    };
-    let encoding = match encoding {
-        None => None,
-        Some("probability") => Some(ArrayEncoding::Probability),
-        Some("percent") => Some(ArrayEncoding::Percent),
-        Some("log-odds") => Some(ArrayEncoding::LogOdds),
-        Some("mrpt") => Some(ArrayEncoding::Mrpt),
-        Some(encoding) => {
-            return Err(choice("encoding", encoding, "'probability', 'percent', 'log-odds' and 'mrpt'"));
-        }
-    };
-    let options = Options { semantics, mode, unknown, encoding, resolution, max_cells };
-    let map = if bags::is_bag(&path) {
-        watched(py, move || mean_information_files::read_map(&path, &options))?.map_err(of_file)?
-    } else {
-        run(py, |source| read_map_from(source, &path, &options))?
-    };
-    as_python(py, map)
-}
-
-/// Hands a map over to Python.
-fn as_python(py: Python<'_>, map: Map) -> PyResult<PyMap> {
-    let Map { cells, resolution, warnings, .. } = map;
-    let encoding = match cells {
-        Cells::Percent(_) => "percent",
-        Cells::Mrpt(_) => "mrpt",
-        Cells::Probability32(_) | Cells::Probability64(_) => "probability",
-        Cells::LogOdds32(_) | Cells::LogOdds64(_) => "log-odds",
-    };
-    let (cells, tally) = watched(py, move || {
-        let tally = with_grid!(&cells, grid => PyTally::from(grid.tally()));
-        (cells, tally)
-    })?;
-    let (array, origin) = with_grid!(&cells, grid => {
-        let array = PyArray1::from_slice(py, grid.cells()).reshape([grid.height(), grid.width()])?;
-        (array.into_any().unbind(), grid.geometry().origin().into())
-    });
-    let (tally, warnings) = (Py::new(py, tally)?, words(&warnings));
-    Ok(PyMap { cells: array, encoding, resolution, origin, tally, warnings })
-}
-
-/// Read a log of range scans: CARMEN's, `.log` or `.clf`.
+/// Read a log of range scans: CARMEN's, `.log` or `.clf`, or the nodes of Cartographer's state, `.pbstream`.
 ///
 /// Parameters
 /// ----------

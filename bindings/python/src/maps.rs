@@ -1,0 +1,162 @@
+//! Maps of files, read.
+
+use crate::errors::of_file;
+use crate::interruptible::run;
+use crate::limit::choice;
+use crate::long_work::watched;
+use crate::pickled::{Made, made};
+use crate::scans::words;
+use crate::tally::PyTally;
+use mean_information_files::bags::{self, MapTopic};
+use mean_information_files::{
+    ArrayEncoding, Cells, Map, Mode, Options, Semantics, read_array_type_from, read_map_from, with_grid,
+};
+use numpy::{PyArray1, PyArrayMethods};
+use pyo3::prelude::*;
+use std::path::PathBuf;
+
+/// A map as it was read.
+///
+/// Attributes
+/// ----------
+/// cells : ndarray, shape (rows, columns)
+///     The cells as they are stored; row 0 is the lowest.
+/// encoding : str
+///     What they are: for `tally(map.cells, encoding=map.encoding)`.
+/// resolution : float or None
+///     The side of a cell in metres; None if the file does not say.
+/// origin : tuple of float
+///     x and y of the lower left corner in metres.
+/// tally : Tally
+///     The measures of the map.
+/// warnings : list of str
+///     Signs that the map means less than it seems.
+#[pyclass(frozen, get_all, name = "Map", module = "mean_information")]
+pub(crate) struct PyMap {
+    cells: Py<PyAny>,
+    encoding: String,
+    resolution: Option<f64>,
+    origin: (f64, f64),
+    tally: Py<PyTally>,
+    warnings: Vec<String>,
+}
+
+#[pymethods]
+impl PyMap {
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        let shape = self.cells.bind(py).getattr("shape")?;
+        let tally = self.tally.bind(py).repr()?;
+        Ok(format!("<Map of shape {shape}, {}: {tally}>", self.encoding))
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Made<'py, State>> {
+        let Self { cells, encoding, resolution, origin, tally, warnings } = self;
+        let (cells, tally) = (cells.clone_ref(py), tally.clone_ref(py));
+        made(py, "_map", (cells, encoding.clone(), *resolution, *origin, tally, warnings.clone()))
+    }
+}
+
+/// What pickle keeps of a map.
+type State = (Py<PyAny>, String, Option<f64>, (f64, f64), Py<PyTally>, Vec<String>);
+
+/// Makes a map of what pickle has kept.
+#[pyfunction]
+pub(crate) fn _map(
+    cells: Py<PyAny>,
+    encoding: String,
+    resolution: Option<f64>,
+    origin: (f64, f64),
+    tally: Py<PyTally>,
+    warnings: Vec<String>,
+) -> PyMap {
+    PyMap { cells, encoding, resolution, origin, tally, warnings }
+}
+
+/// Tells what kind of file a map is by its name, "image", "array", "bag" or "other", and of an array the type of its elements.
+#[pyfunction]
+pub(crate) fn kind_of_map(py: Python<'_>, path: PathBuf) -> PyResult<(&'static str, Option<String>)> {
+    if bags::is_bag(&path) {
+        return Ok(("bag", None));
+    }
+    let dtype = run(py, |source| read_array_type_from(source, &path))?;
+    let is_image =
+        path.extension().is_some_and(|end| ["yaml", "yml"].iter().any(|yaml| end.eq_ignore_ascii_case(yaml)));
+    let kind = if dtype.is_some() {
+        "array"
+    } else if is_image {
+        "image"
+    } else {
+        "other"
+    };
+    Ok((kind, dtype))
+}
+
+/// Read a map, for whose kind `_files.py` has found the arguments fit.
+#[pyfunction]
+#[pyo3(signature = (path, *, semantics="nav2", mode=None, unknown=None, encoding=None, resolution=None, topic=None, max_cells=None))]
+#[expect(clippy::too_many_arguments, reason = "the options of the command")]
+pub(crate) fn read_map(
+    py: Python<'_>,
+    path: PathBuf,
+    semantics: &str,
+    mode: Option<&str>,
+    unknown: Option<f64>,
+    encoding: Option<&str>,
+    resolution: Option<f64>,
+    topic: Option<String>,
+    max_cells: Option<u64>,
+) -> PyResult<PyMap> {
+    let semantics = match semantics {
+        "nav2" => Semantics::Nav2,
+        "nav2-humble" => Semantics::Nav2Humble,
+        "ros1" => Semantics::Ros1,
+        _ => return Err(choice("semantics", semantics, "'nav2', 'nav2-humble' and 'ros1'")),
+    };
+    let mode = match mode {
+        None => None,
+        Some("trinary") => Some(Mode::Trinary),
+        Some("scale") => Some(Mode::Scale),
+        Some("raw") => Some(Mode::Raw),
+        Some("probability") => Some(Mode::Probability),
+        Some(mode) => return Err(choice("mode", mode, "'trinary', 'scale', 'raw' and 'probability'")),
+    };
+    let encoding = match encoding {
+        None => None,
+        Some("probability") => Some(ArrayEncoding::Probability),
+        Some("percent") => Some(ArrayEncoding::Percent),
+        Some("log-odds") => Some(ArrayEncoding::LogOdds),
+        Some("mrpt") => Some(ArrayEncoding::Mrpt),
+        Some(encoding) => {
+            return Err(choice("encoding", encoding, "'probability', 'percent', 'log-odds' and 'mrpt'"));
+        }
+    };
+    let options = Options { semantics, mode, unknown, encoding, resolution, max_cells };
+    let map = if bags::is_bag(&path) {
+        let topic = MapTopic { name: topic, costmaps: false };
+        watched(py, move || bags::last_map(&path, &topic, &options))?.map_err(of_file)?
+    } else {
+        run(py, |source| read_map_from(source, &path, &options))?
+    };
+    as_python(py, map)
+}
+
+/// Hands a map over to Python.
+fn as_python(py: Python<'_>, map: Map) -> PyResult<PyMap> {
+    let Map { cells, resolution, warnings, .. } = map;
+    let encoding = match cells {
+        Cells::Percent(_) => "percent",
+        Cells::Mrpt(_) => "mrpt",
+        Cells::Probability32(_) | Cells::Probability64(_) => "probability",
+        Cells::LogOdds32(_) | Cells::LogOdds64(_) => "log-odds",
+    };
+    let (cells, tally) = watched(py, move || {
+        let tally = with_grid!(&cells, grid => PyTally::from(grid.tally()));
+        (cells, tally)
+    })?;
+    let (array, origin) = with_grid!(&cells, grid => {
+        let array = PyArray1::from_slice(py, grid.cells()).reshape([grid.height(), grid.width()])?;
+        (array.into_any().unbind(), grid.geometry().origin().into())
+    });
+    let (tally, warnings) = (Py::new(py, tally)?, words(&warnings));
+    Ok(PyMap { cells: array, encoding: encoding.to_owned(), resolution, origin, tally, warnings })
+}

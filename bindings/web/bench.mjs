@@ -23,7 +23,7 @@ writeFileSync(paths[0], "image: large.pgm\nresolution: 0.05\norigin: [0, 0, 0]\n
 const file = openSync(paths[1], "w");
 writeSync(file, `P5\n${SIDE} ${SIDE}\n255\n`);
 // Runs of greys, of which 127 is unknown.
-const row = Buffer.from({ length: SIDE }, (_, k) => [254, 127, 250, 20][(k >> 5) & 3] - ((k * 7) % 5 === 0 ? 1 : 0));
+const row = Buffer.from(Uint8Array.from({ length: SIDE }, (_, k) => [254, 127, 250, 20][(k >> 5) & 3] - ((k * 7) % 5 === 0 ? 1 : 0)));
 for (let k = 0; k < SIDE; k++) writeSync(file, row);
 closeSync(file);
 

@@ -1,42 +1,29 @@
 // Puts the page together, one file that needs no other: node bindings/web/page.mjs FILE.wasm FILE.html
 import { createHash } from "node:crypto";
 import { readFileSync, writeFileSync } from "node:fs";
-import { gzipSync } from "node:zlib";
+import { packed } from "./packed.mjs";
 import { load } from "./page/module.mjs";
-import { DIGITS } from "./page/unzipped.mjs";
 
 const [wasmPath, out] = process.argv.slice(2);
 const text = (path) => readFileSync(new URL(path, import.meta.url), "utf8");
 const wasm = readFileSync(wasmPath);
 
-/** The modules in one: they stand in the order of their dependencies, and their names differ. */
-const joined = (names) =>
-  names
-    .map((name) => text(`page/${name}.mjs`))
-    .join("\n")
-    .replace(/^import .*\n/gm, "")
-    .replace(/^export /gm, "");
-
-/** Packs bytes for `unzipped`. */
-const packed = (bytes) => {
-  const zipped = gzipSync(bytes, { level: 9 });
-  const left = -zipped.length & 3;
-  const words = Buffer.concat([zipped, Buffer.alloc(left)]);
-  let text = String(left);
-  for (let at = 0; at < words.length; at += 4) {
-    let word = words.readUInt32BE(at);
-    const digits = Array.from({ length: 5 }, () => {
-      const digit = DIGITS[word % 85];
-      word = Math.floor(word / 85);
-      return digit;
-    });
-    text += digits.reverse().join("");
-  }
-  return text;
+/**
+ * The modules in one: they stand in the order of their dependencies, and their names differ. Comments and what stands before a
+ * line are left out, as no text of theirs has several lines.
+ */
+const joined = (names) => {
+  const lines = names.map((name) => text(`page/${name}.mjs`)).join("\n").split("\n");
+  const open = lines.find((line) => line.split("`").length % 2 === 0 && !/^\s*(\/\/|\/?\*)/.test(line));
+  if (open) throw new Error(`a text goes on in the next line: ${open}`);
+  return lines
+    .map((line) => line.trim().replace(/^export /, ""))
+    .filter((line) => line && !/^(import .* from |\/\/|\/\*\*|\*)/.test(line))
+    .join("\n");
 };
 
-const main = joined(["parts", "unzipped", "client", "chart", "picture", "heatmap", "maps", "room", "cell", "main"]);
-const worker = joined(["module", "unzipped", "worker"]);
+const main = joined(["parts", "lzma", "unzipped", "client", "chart", "picture", "heatmap", "words", "summary", "worst", "maps", "room", "cell", "main"]);
+const worker = joined(["module", "lzma", "unzipped", "worker"]);
 const sample = ["room.yaml", "room.pgm"].map((name) => ({
   name,
   base64: readFileSync(new URL(`../../maps/${name}`, import.meta.url)).toString("base64"),

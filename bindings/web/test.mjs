@@ -3,134 +3,14 @@
 // playwright-core and axe-core come from the npm registry to target/web; pictures of every view, width and colour scheme are
 // left in target/web/pictures. ONLY=WORDS runs the tests whose names hold these words.
 import assert from "node:assert/strict";
-import { execFileSync, spawnSync } from "node:child_process";
-import { existsSync, mkdirSync, readFileSync, rmSync, truncateSync, writeFileSync } from "node:fs";
-import { createRequire } from "node:module";
-import { tmpdir } from "node:os";
-import { dirname, join, resolve } from "node:path";
-import { fileURLToPath, pathToFileURL } from "node:url";
-
-const TOOLS = ["playwright-core@1.65.1", "axe-core@4.14.1"];
-const root = resolve(dirname(fileURLToPath(import.meta.url)), "../..");
-const target = join(resolve(process.env.CARGO_TARGET_DIR ?? join(root, "target")), "web");
-const meaninfo = resolve(process.argv[2]);
-const page = pathToFileURL(resolve(process.argv[3] ?? join(target, "meaninfo.html"))).href;
-
-if (!TOOLS.every((tool) => existsSync(join(target, "node_modules", tool.split("@")[0])))) {
-  execFileSync("npm", ["install", "--silent", "--no-save", "--no-audit", "--no-fund", "--prefix", target, ...TOOLS]);
-}
-const require = createRequire(join(target, "node_modules/"));
-const { chromium } = require("playwright-core");
-const axe = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
-
-/** What the command says of these arguments, in the folder of the sample. */
-const maps = join(root, "maps");
-const said = (...args) => spawnSync(meaninfo, args, { cwd: maps, encoding: "utf8" });
-const json = (...args) => said(...args, "--format", "json").stdout;
-
-const work = join(tmpdir(), `meaninfo-page-${process.pid}`);
-const pictures = join(target, "pictures");
-for (const folder of [work, pictures]) mkdirSync(folder, { recursive: true });
-const made = (name, bytes) => {
-  writeFileSync(join(work, name), bytes);
-  return join(work, name);
-};
-const YAML = (image) => `image: ${image}\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n`;
-
-/** Begins a browser. */
-const launch = (...args) => chromium.launch({
-  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-  args: ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
-    "--disable-component-update", "--disable-sync", ...args],
-});
-const browser = await launch();
-let passed = 0;
-const troubles = [];
-
-/** Opens the page anew, and runs a test on it; nothing may be asked of a network. */
-async function test(name, run, options = {}) {
-  if (!name.includes(process.env.ONLY ?? "")) return;
-  const context = await (options.browser ?? browser).newContext({ acceptDownloads: true, ...options });
-  await context.setOffline(true);
-  const tab = await context.newPage();
-  tab.setDefaultTimeout(60_000);
-  const faults = [];
-  tab.on("pageerror", (error) => faults.push(String(error)));
-  tab.on("console", (message) => message.type() === "error" && faults.push(message.text()));
-  tab.on("request", (request) => /^(file|blob|data):/.test(request.url()) || faults.push(request.url()));
-  try {
-    await tab.goto(options.page ?? page);
-    await run(tab);
-    assert.deepEqual(faults.filter((fault) => !options.expected?.test(fault)), []);
-    passed += 1;
-    console.log(`ok: ${name}`);
-  } catch (error) {
-    troubles.push(name);
-    console.log(`NOT OK: ${name}\n${error.stack}`);
-    await tab.screenshot({ path: join(pictures, "trouble.png"), fullPage: true }).catch(() => {});
-  }
-  await context.close();
-}
-
-const idle = async (tab) => {
-  await tab.locator("#sweep:not([hidden]), #no-picture:not(:empty)").first().waitFor();
-  await tab.locator("#progress").waitFor({ state: "hidden" });
-};
-const saved = async (tab, button) => {
-  const [download] = await Promise.all([tab.waitForEvent("download"), tab.click(button)]);
-  return readFileSync(await download.path());
-};
-/** Drops files on the page as a file manager does. */
-const drop = async (tab, paths) => {
-  const files = paths.map((path) => [path.split("/").pop(), readFileSync(path).toString("base64")]);
-  const data = await tab.evaluateHandle((files) => {
-    const transfer = new DataTransfer();
-    for (const [name, base64] of files) {
-      transfer.items.add(new File([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], name));
-    }
-    return transfer;
-  }, files);
-  await tab.dispatchEvent("#drop", "drop", { dataTransfer: data });
-};
-/** Drags paths of the disk over the page and drops them, folders, too. */
-const drag = async (tab, paths) => {
-  const session = await tab.context().newCDPSession(tab);
-  const { x, y } = await tab.locator("#drop").boundingBox();
-  const data = { items: [], files: paths, dragOperationsMask: 1 };
-  for (const type of ["dragEnter", "dragOver", "drop"]) {
-    await session.send("Input.dispatchDragEvent", { type, x: x + 9, y: y + 9, data });
-  }
-};
-/** What the command says of a map in the folder of the tests' own files. */
-const measured = (name) => {
-  const { status, stdout, stderr } = spawnSync(meaninfo, ["map", name, "--format", "json"], { cwd: work, encoding: "utf8" });
-  return status === 0 ? JSON.parse(stdout)[0] : stderr.trim();
-};
-/** A file of so many bytes that takes no room on the disk: zeros behind its beginning. */
-const sparse = (name, beginning, length) => {
-  const path = made(name, Buffer.from(beginning, "latin1"));
-  truncateSync(path, length);
-  return path;
-};
-/** The head of an array of float32, which a file of NumPy begins with. */
-const npyHead = (...shape) => {
-  const head = `{'descr': '<f4', 'fortran_order': False, 'shape': (${shape.join(", ")}), }`.padEnd(117) + "\n";
-  return `\x93NUMPY\x01\x00${String.fromCharCode(head.length & 255, head.length >> 8)}${head}`;
-};
-const goesOn = async (tab) => {
-  await drop(tab, ["room.yaml", "room.pgm"].map((name) => join(maps, name)));
-  await tab.waitForFunction(() => document.getElementById("rows").textContent.includes("room.yaml"));
-  // The map that was looked at before stays chosen where it has a number.
-  if (await tab.locator("#several").isVisible()) await tab.click("#rows button >> text=room.yaml");
-  await tab.waitForFunction(() => document.getElementById("chosen").textContent === "room.yaml");
-  await idle(tab);
-  assert.equal(await tab.textContent("#number"), String(JSON.parse(json("map", "room.yaml"))[0].mean_information));
-};
-const accessible = async (tab) => {
-  await tab.evaluate(axe);
-  const { violations } = await tab.evaluate(() => window.axe.run());
-  assert.deepEqual(violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html).join(" ")}`), []);
-};
+import { spawnSync } from "node:child_process";
+import { mkdirSync, readFileSync } from "node:fs";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
+import {
+  YAML, accessible, drag, drop, finish, goesOn, idle, json, launch, made, maps, measured, meaninfo, npy, npyHead, pictures, said, saved,
+  sparse, test, work,
+} from "./tests/harness.mjs";
 
 await test("the sample is there, and is the command's number", async (tab) => {
   await idle(tab);
@@ -163,7 +43,7 @@ await test("the sample dropped; a cell by the keys", async (tab) => {
   await tab.keyboard.press("+");
   await tab.keyboard.press("ArrowRight");
   await tab.waitForFunction(() => document.getElementById("cell-told").textContent.includes("H "));
-  assert.match(await tab.textContent("#cell-told"), /Column \d+, row \d+, at [\d.-]+, [\d.-]+ m: p [\d.e-]+, H [\d.e-]+, I [\d.e-]+ bits/);
+  assert.match(await tab.textContent("#cell-told"), /Column \d+, row \d+, at x [\d.-]+, y [\d.-]+ m: p [\d.e-]+, H [\d.e-]+, I [\d.e-]+ bits/);
 });
 
 await test("a broken map is refused by the command's line, and the page goes on", async (tab) => {
@@ -221,9 +101,7 @@ await test("files of the names of others take their place", async (tab) => {
 
 await test("three maps at once make a table", async (tab) => {
   await idle(tab);
-  const npy = (values) =>
-    Buffer.concat([Buffer.from(npyHead(2, values.length / 2), "latin1"), Buffer.from(new Float32Array(values).buffer)]);
-  const paths = [made("a.npy", npy([0.1, 0.5, 0.9, 0.25])), made("b.npy", npy([0.5, 0.5, 0.5, 0.5, 0.75, 1])), made("c.npy", npy([0, 1, 1, 0]))];
+  const paths = [npy("a.npy", 2, 2, [0.1, 0.5, 0.9, 0.25]), npy("b.npy", 2, 3, [0.5, 0.5, 0.5, 0.5, 0.75, 1]), npy("c.npy", 2, 2, [0, 1, 1, 0])];
   await drop(tab, paths);
   await tab.waitForFunction(() => document.querySelectorAll("#rows tr").length === 3);
   await idle(tab);
@@ -353,10 +231,10 @@ await test("maps inside the page", async (tab) => {
   await idle(tab);
   assert.equal(await tab.textContent("#chosen"), "plan.yaml");
   assert.equal(await tab.locator("#errors p").count(), 0);
-}, await withMaps());
+}, withMaps);
 
 /** Has the command write a page with a map inside. */
-async function withMaps() {
+function withMaps() {
   const out = join(work, "report.html");
   made("plan.yaml", YAML("plan.pgm"));
   made("plan.pgm", Buffer.from("P5\n3 2\n255\n\x00\xfe\x00\xfe\xcd\xfe", "latin1"));
@@ -386,7 +264,8 @@ for (const colorScheme of ["light", "dark"]) {
   }
 }
 
-await browser.close();
-rmSync(work, { recursive: true });
-console.log(`\npictures: ${pictures}\n${passed} passed, ${troubles.length} failed${troubles.map((name) => `\n  ${name}`).join("")}`);
-process.exitCode = troubles.length ? 1 : 0;
+await import("./tests/packed.mjs");
+await import("./tests/worst.mjs");
+await import("./tests/chosen.mjs");
+await import("./tests/shown.mjs");
+await finish();

@@ -3,25 +3,33 @@ import { latest, make } from "./parts.mjs";
 
 /** A cell never gets more pixels than this. */
 const LARGEST = 64;
+/** The cells across the canvas around one that is gone to. */
+const AROUND = 31;
 
 export class HeatMap {
   #canvas;
   #client;
   #of;
   #told;
+  #keys;
   #size = [0, 0];
   /** The cell at the middle of the canvas, from the lower left, and pixels of the page per cell. */
   #view = { x: 0, y: 0, zoom: 1 };
   /** True while all of the grid is shown, and is to be shown when the canvas changes. */
   #isFitted = true;
   #picture = null;
-  #cursor = null;
+  /** The cell that was clicked or moved to, and the one under the pointer. */
+  #mark = null;
+  #hover = null;
+  /** What is pointed out: cells, and a rectangle of cells. */
+  #noted = { cells: [], square: null };
   #draw = latest(() => this.#fetch());
   #look = latest((column, row) => this.#tell(column, row));
 
-  /** Draws the grid `of` ("map" or "room") on a canvas; `told(cell, column, row)` hears of the cell under the pointer. */
-  constructor(canvas, client, of, told) {
-    [this.#canvas, this.#client, this.#of, this.#told] = [canvas, client, of, told];
+  /** Draws the grid `of` ("map" or "room") on a canvas; `told(cell, column, row)` hears of the cell that is pointed at or marked.
+   * `keys` are functions of more keys. */
+  constructor(canvas, client, of, told, keys = {}) {
+    [this.#canvas, this.#client, this.#of, this.#told, this.#keys] = [canvas, client, of, told, keys];
     this.#listen();
     new ResizeObserver(() => this.#size[0] && this.#resized()).observe(canvas);
   }
@@ -29,8 +37,8 @@ export class HeatMap {
   /** Shows another grid, all of it. */
   show(width, height) {
     this.#size = [width, height];
-    this.#cursor = null;
-    this.#picture = null;
+    [this.#mark, this.#hover, this.#picture] = [null, null, null];
+    this.#noted = { cells: [], square: null };
     this.#resized();
     this.fit();
   }
@@ -46,6 +54,38 @@ export class HeatMap {
     this.#isFitted = true;
     this.#paint();
     this.#draw();
+  }
+
+  /** Points out cells `[column, row]`, and a rectangle `[column, row, width, height]` or none. */
+  note(cells, square) {
+    this.#noted = { cells, square };
+    this.#paint();
+  }
+
+  /** Moves to a rectangle of cells, so that it fills a third of the canvas, and marks it where it is one cell. */
+  goTo([column, row, width, height]) {
+    const { clientWidth, clientHeight } = this.#canvas;
+    const isCell = width === 1 && height === 1;
+    const across = isCell ? AROUND : 3 * width;
+    const up = isCell ? AROUND : 3 * height;
+    const zoom = Math.min(LARGEST, Math.max(this.#fitting(), Math.min(clientWidth / across, clientHeight / up)));
+    this.#view = { x: column + width / 2, y: row + height / 2, zoom };
+    this.#isFitted = zoom === this.#fitting();
+    [this.#mark, this.#hover] = [isCell ? [column, row] : null, null];
+    this.#moved();
+    if (isCell) this.#look(column, row);
+  }
+
+  /** Zooms about the marked cell, which comes into the middle where it is not seen; about the middle where none is marked. */
+  zoomIn(by) {
+    if (this.#mark && !this.#sees(this.#mark)) [this.#view.x, this.#view.y] = this.#mark.map((at) => at + 0.5);
+    this.zoom(by, this.#mark?.map((at) => at + 0.5));
+  }
+
+  #sees(place) {
+    const { x, y, zoom } = this.#view;
+    const { clientWidth, clientHeight } = this.#canvas;
+    return Math.abs(place[0] + 0.5 - x) <= clientWidth / zoom / 2 && Math.abs(place[1] + 0.5 - y) <= clientHeight / zoom / 2;
   }
 
   zoom(by, at = null) {
@@ -129,15 +169,29 @@ export class HeatMap {
       context.imageSmoothingEnabled = false;
       context.drawImage(picture, x, y, across * block * scale, down * block * scale);
     }
-    if (this.#cursor) {
-      const [column, row] = this.#cursor;
-      const [x, y, scale] = this.#at(column, row + 1);
-      const side = Math.max(scale, 6);
-      for (const [colour, out] of [["#000", 2], ["#fff", 1]]) {
-        context.strokeStyle = colour;
-        context.lineWidth = 1.5;
-        context.strokeRect(x - out, y - out, side + 2 * out, side + 2 * out);
-      }
+    for (const [column, row] of this.#noted.cells) this.#ring(context, column + 0.5, row + 0.5);
+    if (this.#noted.square) this.#frame(context, this.#noted.square, 3);
+    for (const place of [this.#mark, this.#hover]) if (place) this.#frame(context, [...place, 1, 1], 1.5);
+  }
+
+  /** Draws black within white, which is seen on every colour: a frame around a rectangle of cells. */
+  #frame(context, [column, row, width, height], line) {
+    const [x, y, scale] = this.#at(column, row + height);
+    const [across, up] = [width, height].map((cells) => Math.max(cells * scale, 6));
+    context.lineWidth = line;
+    for (const [colour, out] of [["#000", 2 * line], ["#fff", line]]) {
+      context.strokeStyle = colour;
+      context.strokeRect(x - out, y - out, across + 2 * out, up + 2 * out);
+    }
+  }
+
+  #ring(context, x, y) {
+    const [left, up, scale] = this.#at(x, y);
+    for (const [colour, line] of [["#000", 4], ["#fff", 2]]) {
+      [context.strokeStyle, context.lineWidth] = [colour, line];
+      context.beginPath();
+      context.arc(left, up, scale / 2 + 6, 0, 2 * Math.PI);
+      context.stroke();
     }
   }
 
@@ -158,26 +212,43 @@ export class HeatMap {
     return [x + (clientX - left - width / 2) / zoom, y - (clientY - top - height / 2) / zoom];
   }
 
-  #point(place) {
-    const [column, row] = place.map(Math.floor);
+  /** Returns the cell under an event of the pointer; `null` beside the grid. */
+  #under(event) {
+    const [column, row] = this.#place(event).map(Math.floor);
     const [width, height] = this.#size;
-    if (column < 0 || row < 0 || column >= width || row >= height) return;
-    this.#cursor = [column, row];
+    return column < 0 || row < 0 || column >= width || row >= height ? null : [column, row];
+  }
+
+  /** Looks at the cell under the pointer, or at the marked one where the pointer is elsewhere. */
+  #point(cell) {
+    this.#hover = cell;
     this.#paint();
-    this.#look(column, row);
+    const seen = cell ?? this.#mark;
+    if (seen) this.#look(...seen);
+  }
+
+  #choose(cell) {
+    this.#mark = cell;
+    this.#point(null);
   }
 
   #listen() {
     const canvas = this.#canvas;
     const held = new Map();
+    const where = ({ clientX, clientY }) => `${clientX} ${clientY}`;
+    let [pressed, last] = [null, null];
+    window.addEventListener("pointermove", (event) => (last = where(event)));
     canvas.addEventListener("pointerdown", (event) => {
       canvas.setPointerCapture(event.pointerId);
       held.set(event.pointerId, event);
+      pressed = event;
     });
     canvas.addEventListener("pointermove", (event) => {
       if (!this.#size[0]) return;
+      // Where the page scrolls under a pointer that rests, the cell that was gone to stays looked at.
+      if (where(event) === last) return;
       const before = held.get(event.pointerId);
-      if (!before) return this.#point(this.#place(event));
+      if (!before) return this.#point(this.#under(event));
       if (held.size === 2) {
         const other = [...held.values()].find(({ pointerId }) => pointerId !== event.pointerId);
         const apart = (a, b) => Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY);
@@ -192,9 +263,12 @@ export class HeatMap {
     for (const end of ["pointerup", "pointercancel"]) {
       canvas.addEventListener(end, (event) => {
         held.delete(event.pointerId);
-        if (end === "pointerup" && this.#size[0]) this.#point(this.#place(event));
+        const moved = Math.hypot(event.clientX - pressed?.clientX, event.clientY - pressed?.clientY);
+        const cell = this.#under(event);
+        if (end === "pointerup" && this.#size[0] && moved < 5 && cell) this.#choose(cell);
       });
     }
+    canvas.addEventListener("pointerleave", () => this.#size[0] && this.#point(null));
     canvas.addEventListener("wheel", (event) => {
       if (!this.#size[0]) return;
       event.preventDefault();
@@ -210,14 +284,16 @@ export class HeatMap {
     const moves = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, step], ArrowDown: [0, -step] };
     const zooms = { "+": 2, "=": 2, "-": 0.5, _: 0.5 };
     if (event.key in moves) {
-      const [column, row] = this.#cursor ?? [this.#view.x, this.#view.y].map(Math.floor);
+      const [column, row] = this.#mark ?? [this.#view.x, this.#view.y].map(Math.floor);
       const within = (at, cells) => Math.min(cells - 1, Math.max(0, at));
       const [across, up] = moves[event.key];
       const place = [within(column + across, width), within(row + up, height)];
       this.#follow(place);
-      this.#point(place);
+      this.#choose(place);
     } else if (event.key in zooms) {
-      this.zoom(zooms[event.key], this.#cursor?.map((at) => at + 0.5));
+      this.zoomIn(zooms[event.key]);
+    } else if (event.key in this.#keys && !event.ctrlKey && !event.metaKey && !event.altKey) {
+      this.#keys[event.key]();
     } else if (event.key === "0") {
       this.fit();
     } else {

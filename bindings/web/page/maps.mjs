@@ -2,8 +2,11 @@
 import { Client } from "./client.mjs";
 import { chart } from "./chart.mjs";
 import { HeatMap, inWords } from "./heatmap.mjs";
-import { element, fixed, grouped, held, make, save } from "./parts.mjs";
+import { counted, element, fixed, grouped, held, make, rounded, save } from "./parts.mjs";
 import { drawnPicture } from "./picture.mjs";
+import { showSummary, sizeOf } from "./summary.mjs";
+import { onPage } from "./words.mjs";
+import { Worst } from "./worst.mjs";
 
 const IMAGE = /\.(pgm|png|bmp|ppm|pbm|pnm|jpe?g|tiff?|gif|webp|tga)$/i;
 const MAP = /\.(ya?ml|np[yz]|gridmap(\.gz)?|ot|bt|pbstream)$/i;
@@ -16,6 +19,7 @@ export class Maps {
   #chosen = null;
   #opened = null;
   #heatMap;
+  #worst;
   /** What was dropped or changed waits for what came before. */
   #queue = Promise.resolve();
   #turn = 0;
@@ -23,7 +27,9 @@ export class Maps {
   /** @param {Client} client */
   constructor(client) {
     this.#client = client;
-    this.#heatMap = new HeatMap(element("heat-map"), client, "map", (cell, column, row) => this.#tellCell(cell, column, row));
+    this.#heatMap = new HeatMap(element("heat-map"), client, "map", (cell, column, row) => this.#tellCell(cell, column, row),
+      { w: () => this.#worst.toNext(), r: () => this.#worst.toRegion() });
+    this.#worst = new Worst(client, this.#heatMap, (cells) => this.#place(cells));
     this.#listen();
     const inside = held("maps");
     this.add(inside.length ? inside : held("sample"), !inside.length);
@@ -50,7 +56,7 @@ export class Maps {
     for (const file of files) this.#files.set(file.name, file);
     await this.#list();
     await this.#learnImages();
-    element("errors").replaceChildren();
+    for (const id of ["errors", "notices"]) element(id).replaceChildren();
     const twice = given.find((name, k) => given.indexOf(name) !== k);
     if (twice) this.#refuse(`${twice}: two files have this name, and the last is taken; give one of them another name`);
     // A file whose name was there takes its place: what was measured of the old one is measured again.
@@ -63,11 +69,34 @@ export class Maps {
     // An image that came may be the one that a description waits for.
     const waiting = [...this.#missing.keys()];
     const maps = [...new Set([...given.filter((name) => !IMAGE.test(name)), ...waiting, ...again])];
-    for (const name of maps) await this.#measure(name);
+    for (const name of maps) {
+      this.#earlier.delete(name);
+      const image = this.#images.get(name);
+      if (given.includes(name) && this.#files.has(image) && !given.includes(image)) this.#earlier.add(name);
+      await this.#measure(name);
+    }
     this.#offerDescriptions();
-    const next = this.#rows.has(this.#chosen) ? this.#chosen : [...this.#rows.keys()][0];
-    if (next && (next !== this.#chosen || again.includes(next))) await this.#choose(next);
-    if (maps.length > 1) this.#tell(`${this.#rows.size} maps are measured`);
+    const measured = maps.filter((name) => this.#rows.has(name));
+    await this.#show(measured.includes(this.#chosen) ? this.#chosen : measured[0]);
+    if (maps.length > 1) this.#tell(`${measured.length === maps.length ? "" : `${measured.length} of `}${counted(maps.length, "map")} measured`);
+    for (const name of measured.filter((name) => this.#earlier.has(name))) {
+      this.#notice(`${name} came alone: its image is the file ${this.#images.get(name)} that was chosen earlier. Choose both if that is another one.`);
+    }
+    const isOld = !measured.length && this.#rows.has(this.#chosen) && element("errors").hasChildNodes();
+    if (isOld) this.#notice(`What is shown below is still ${this.#chosen}, chosen earlier.`);
+  }
+
+  /** Shows a map that was measured now; without one, that which was shown before, or the first. */
+  async #show(name) {
+    const next = name ?? (this.#rows.has(this.#chosen) ? this.#chosen : [...this.#rows.keys()][0]);
+    if (next && (name || next !== this.#chosen)) await this.#choose(next);
+  }
+
+  /** The descriptions that came without their images, which were here before. */
+  #earlier = new Set();
+
+  #notice(text) {
+    element("notices").append(make("p", {}, text));
   }
 
   #list() {
@@ -79,6 +108,8 @@ export class Maps {
     this.#rows.clear();
     this.#missing.clear();
     this.#images.clear();
+    this.#earlier.clear();
+    element("notices").replaceChildren();
     this.#chosen = null;
     this.#hide();
     await this.#client.ask({ ask: "forget" });
@@ -119,7 +150,7 @@ export class Maps {
       const [names, chosen] = [[...this.#rows.keys()], this.#chosen];
       await this.#client.ask({ ask: "forget" });
       this.#rows.clear();
-      element("errors").replaceChildren();
+      for (const id of ["errors", "notices"]) element(id).replaceChildren();
       for (const name of [...names, ...this.#refused].filter((name, k, all) => all.indexOf(name) === k)) await this.#measure(name);
       this.#table();
       this.#hide();
@@ -133,8 +164,8 @@ export class Maps {
   }
 
   #refuse(message, missingImage = null) {
-    const hint = missingImage ? ` Drop ${missingImage.split(/[\\/]/).pop()} here, too.` : "";
-    element("errors").append(make("p", {}, `meaninfo: ${message}`, hint));
+    const hint = missingImage ? `. Drop ${missingImage.split(/[\\/]/).pop()} here, too.` : "";
+    element("errors").append(make("p", {}, onPage(message), hint));
   }
 
   /** Offers to describe the images that no description names. */
@@ -223,6 +254,9 @@ export class Maps {
         element("save-png").hidden = false;
         element("heat-map").style.setProperty("--ratio", Math.min(3, Math.max(0.6, width / height)));
         this.#heatMap.show(width, height);
+        element("percent").hidden = !this.#opened.percent;
+        this.#tell(`finding the worst cells of ${name}`);
+        await this.#worst.find();
       }
       this.#tell(`averaging the cells of ${name}`);
       this.#sweep(await this.#client.json({ ask: "sweep" }));
@@ -236,6 +270,7 @@ export class Maps {
   #hide() {
     this.#opened = null;
     this.#heatMap.hide();
+    this.#worst.hide();
     element("picture").hidden = true;
     element("save-png").hidden = true;
     element("sweep").hidden = true;
@@ -246,24 +281,9 @@ export class Maps {
 
   #summary(name) {
     const row = this.#rows.get(name)[0];
-    element("summary").hidden = false;
-    element("chosen").textContent = this.#isSample ? `${row.map}, a sample` : row.map;
-    element("number").textContent = row.mean_information === null ? "none" : String(row.mean_information);
-    element("unit").hidden = row.mean_information === null;
-    element("read").textContent = reading(row);
-    const facts = [
-      ["cells", sizeOf(row)],
-      ["resolution", row.resolution_m === null ? "not given" : `${row.resolution_m} m`],
-      ["observed", `${grouped(row.observed)} cells${row.observed_area_m2 === null ? "" : `, ${row.observed_area_m2} m²`}`],
-      ["free, occupied", `${grouped(row.free)}, ${grouped(row.occupied)}`],
-      ["unknown", row.unknown === null ? "all around the leaves" : grouped(row.unknown)],
-      ["information", `${row.information_bits} bits`],
-      ["entropy", `${row.entropy_bits} bits, unknown cells at 1 each`],
-      ["exact value", row.mean_information_hex ?? "none"],
-    ];
-    element("facts").replaceChildren(...facts.map(([name, value]) => make("div", {}, make("dt", {}, name), make("dd", {}, value))));
-    element("warnings").replaceChildren(...row.warnings.map((warning) => make("li", {}, warning)));
-    element("warned").hidden = !row.warnings.length;
+    const image = this.#files.get(this.#images.get(name));
+    const told = image && `${image.name}, ${counted(image.size, "byte")}${this.#earlier.has(name) ? ", chosen earlier" : ""}`;
+    showSummary(row, this.#isSample ? `${row.map}, a sample` : row.map, told);
   }
 
   #sweep({ rows }) {
@@ -278,15 +298,24 @@ export class Maps {
       curves: [{ points, kind: "first" }], y: [0, 1], doubles: true, marks: true,
     }));
     const cells = (row) => [
-      inMetres ? `${row.resolution_m} m` : `${row.k} × ${row.k}`, fixed(row.mean_information, 6), grouped(row.observed),
+      inMetres ? `${rounded(row.resolution_m)} m` : `${row.k} × ${row.k}`, fixed(row.mean_information, 6), grouped(row.observed),
     ];
     element("sweep-rows").replaceChildren(...rows.map((row) => make("tr", {}, ...cells(row).map((text) => make("td", { class: "number" }, text)))));
   }
 
   #tellCell(cell, column, row) {
+    element("cell-told").textContent = `Column ${column}, row ${row}, at ${this.#place([column, row, 1, 1])}: ${inWords(cell)}`;
+  }
+
+  /** Returns where the middle of a rectangle of cells is, in metres where the size of a cell is known. */
+  #place([column, row, width, height]) {
     const { resolution_m: side, x, y, yaw } = this.#opened ?? {};
-    const place = side && !yaw ? `, at ${(x + (column + 0.5) * side).toFixed(3)}, ${(y + (row + 0.5) * side).toFixed(3)} m` : "";
-    element("cell-told").textContent = `Column ${column}, row ${row}${place}: ${inWords(cell)}`;
+    const middle = [column + width / 2, row + height / 2];
+    if (!side) return `${middle.join(", ")} cells`;
+    const [right, up] = middle.map((at) => at * side);
+    // Turned about the corner of the map, as its description says.
+    const [cos, sin] = [Math.cos(yaw), Math.sin(yaw)];
+    return `x ${(x + cos * right - sin * up).toFixed(3)}, y ${(y + sin * right + cos * up).toFixed(3)} m`;
   }
 
   async #export(format) {
@@ -328,9 +357,10 @@ export class Maps {
     element("clear").addEventListener("click", () => {
       this.#then(() => this.#forget()).then(() => element("errors").replaceChildren());
     });
-    element("zoom-in").addEventListener("click", () => this.#heatMap.zoom(2));
-    element("zoom-out").addEventListener("click", () => this.#heatMap.zoom(0.5));
+    element("zoom-in").addEventListener("click", () => this.#heatMap.zoomIn(2));
+    element("zoom-out").addEventListener("click", () => this.#heatMap.zoomIn(0.5));
     element("fit").addEventListener("click", () => this.#heatMap.fit());
+    element("worst-side").addEventListener("change", () => this.#then(() => this.#opened?.cells && this.#worst.find()));
     element("save-json").addEventListener("click", () => this.#export("json"));
     element("save-csv").addEventListener("click", () => this.#export("csv"));
     element("save-png").addEventListener("click", () => this.#exportPicture());
@@ -343,17 +373,4 @@ export class Maps {
       for (const name of names) this.#refuse(`${name}: is a directory; allowed are files`);
     });
   }
-}
-
-/** Returns a map's size in words. */
-function sizeOf(row) {
-  if (row.leaves !== undefined && row.leaves !== null) return `${grouped(row.leaves)} leaves`;
-  return row.width === null ? "submaps" : `${row.width} × ${row.height}`;
-}
-
-/** Returns how to read a mean information. */
-function reading(row) {
-  if (row.mean_information === null) return "Nothing is observed, so there is no mean information.";
-  const scale = "From 0, which says nothing of the cells that were seen, to 1, which leaves no doubt. Unknown cells do not count.";
-  return row.meaningful ? scale : `${scale} Here it means nothing: the warnings say why.`;
 }

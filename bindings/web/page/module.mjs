@@ -36,7 +36,8 @@ export async function load(bytes, readPiece) {
 
   /** Returns the bytes of the answer; throws `Refused` or `Stopped`. */
   return function ask(request) {
-    const written = new TextEncoder().encode(JSON.stringify(request));
+    const { ask: name, ...rest } = request;
+    const written = new TextEncoder().encode(JSON.stringify({ [name]: rest }));
     try {
       memory(exports.request(written.length), written.length).set(written);
       const refused = exports.ask();

@@ -33,6 +33,12 @@ export const fixed = (x, digits) => (x === null ? "none" : x.toFixed(digits));
 /** Returns a number to at most four significant digits. */
 export const short = (x) => String(Number(x.toPrecision(4)));
 
+/** Returns a number to at most six significant digits, where it is no result that is compared. */
+export const rounded = (x) => String(Number(x.toPrecision(6)));
+
+/** Returns how many there are of something, which has a plural in s. */
+export const counted = (count, what) => `${grouped(count)} ${what}${count === 1 ? "" : "s"}`;
+
 /** Hands a file to whoever looks at the page. */
 export function save(name, blob) {
   const address = URL.createObjectURL(blob);

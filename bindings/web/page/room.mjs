@@ -9,6 +9,8 @@ export class Room {
   #client;
   #heatMap;
   #draw = latest(() => this.#compute());
+  /** What the numbers that are shown are of, once there are some. */
+  #shown = "";
 
   constructor(client) {
     this.#client = client;
@@ -19,32 +21,50 @@ export class Room {
       const [slider, number] = [element(`${name}-slider`), element(`${name}-number`)];
       slider.addEventListener("input", () => {
         number.value = slider.value;
-        this.#draw();
+        this.#changed();
       });
       number.addEventListener("input", () => {
-        slider.value = number.value;
-        this.#draw();
+        // A slider takes what is no number for its middle.
+        if (Number(number.value) > 0) slider.value = number.value;
+        this.#changed();
       });
     }
     for (const [id, by] of [["disc-in", 2], ["disc-out", 0.5]]) {
-      element(id).addEventListener("click", () => this.#heatMap.zoom(by));
+      element(id).addEventListener("click", () => this.#heatMap.zoomIn(by));
     }
     element("disc-fit").addEventListener("click", () => this.#heatMap.fit());
   }
 
   /** Draws the room; to be called when the view is shown. */
   show() {
+    this.#changed();
+  }
+
+  /** Marks what is shown as that of other values, and computes anew. */
+  #changed() {
+    element("room-result").setAttribute("aria-busy", "true");
+    element("room-shown").textContent = this.#shown ? `Computing; below is still ${this.#shown}.` : "Computing.";
     this.#draw();
   }
 
   async #compute() {
-    const [range, sigma, resolution] = SLIDERS.map((name) => element(`${name}-number`).value);
+    const fields = SLIDERS.map((name) => element(`${name}-number`));
+    const asked = fields.map(({ value }) => value);
+    const [range, sigma, resolution] = asked;
+    const isNewest = () => fields.every(({ value }, k) => value === asked[k]);
     try {
       const room = await this.#client.json({ ask: "room", range, sigma, resolution });
-      element("room-error").textContent = "";
       this.#tell(room);
+      this.#shown = `z ${room.range_m} m, σ ${room.sigma_m} m, cells of ${Number(resolution) || resolution} m`;
+      if (!isNewest()) return;
+      element("room-error").textContent = "";
+      element("room-shown").textContent = `For ${this.#shown}.`;
+      element("room-result").setAttribute("aria-busy", "false");
+      for (const field of fields) field.removeAttribute("aria-invalid");
     } catch (error) {
       element("room-error").textContent = error.message;
+      element("room-shown").textContent = this.#shown && `Below is still ${this.#shown}.`;
+      for (const field of fields) field.setAttribute("aria-invalid", String(!(Number(field.value) > 0)));
     }
   }
 

@@ -1,19 +1,21 @@
-// What the page holds in gzip and in digits of base 85, of which five are four bytes: the module, and the licences of others.
+// What the page holds packed, in LZMA or gzip, and in digits of base 91: the module, and the licences of others.
+import { fromLzma } from "./lzma.mjs";
 
-/** The digits; none begins an element or a reference of HTML. */
-export const DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#()*+,./:;=>?@[]^_{|}~";
+/** The digits: two are 13 bits, from the lowest on. None begins an element, a reference or a comment of HTML. */
+export const DIGITS = Array.from({ length: 94 }, (_, k) => String.fromCharCode(33 + k)).filter((digit) => !"<&-".includes(digit)).join("");
 
 /** Returns what was packed, as a response to read bytes or text from. The first digit is the number of bytes to leave out. */
 export function unzipped(packed) {
   const text = packed.trim();
   const value = new Uint8Array(128);
   for (let k = 0; k < DIGITS.length; k++) value[DIGITS.charCodeAt(k)] = k;
-  const words = new DataView(new ArrayBuffer(((text.length - 1) / 5) * 4));
-  for (let from = 1, to = 0; from < text.length; from += 5, to += 4) {
-    let word = 0;
-    for (let k = from; k < from + 5; k++) word = word * 85 + value[text.charCodeAt(k)];
-    words.setUint32(to, word);
+  const bytes = new Uint8Array(Math.floor(((text.length - 1) / 2) * 13 / 8) - Number(text[0]));
+  let [bits, held] = [0, 0];
+  for (let from = 1, to = 0; from < text.length; from += 2) {
+    bits |= (value[text.charCodeAt(from)] + 91 * value[text.charCodeAt(from + 1)]) << held;
+    for (held += 13; held >= 8; held -= 8, bits >>>= 8) bytes[to++] = bits & 255;
   }
-  const bytes = new Uint8Array(words.buffer, 0, words.byteLength - Number(text[0]));
+  // The mark of gzip, which was taken where the page was built without xz.
+  if (bytes[0] !== 0x1f) return new Response(fromLzma(bytes));
   return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip")));
 }

@@ -5,28 +5,30 @@ use mean_information_files::{ArrayEncoding, Mode, Options, Semantics};
 use mean_information_report::Reading;
 use serde::{Deserialize, Deserializer, de::Error};
 
-/// A request, with the word that names it in `ask`.
+/// A request: an object of one key, the word that names it.
 #[derive(Debug, Deserialize)]
-#[serde(tag = "ask", rename_all = "snake_case")]
+#[serde(rename_all = "snake_case")]
 pub(crate) enum Request {
     /// The files from which maps may be read from now on, in the place of those before.
     Files { files: Vec<Listed> },
     /// Measures a map and keeps its rows; answers with these, as JSON.
     Measure { name: String, reading: Choices },
     /// Forgets the rows of all maps.
-    Forget,
+    Forget {},
     /// All rows, as `meaninfo map` prints them.
     Rows { format: Format },
     /// Keeps the cells of a map, in the place of those before; answers with its size and place.
     Open { name: String, reading: Choices },
     /// The measures of the open map against the size of its cells, as `meaninfo sweep --format json` prints them.
-    Sweep,
+    Sweep {},
     /// Squares of cells of what is drawn, as red, green, blue and alpha, row by row from the top.
     Squares { of: Drawn, columns: [usize; 2], rows: [usize; 2], block: usize },
     /// One cell of what is drawn.
     Cell { of: Drawn, column: usize, row: usize },
+    /// The observed cells of the open map with the largest entropies, and the worst square of so many cells a side.
+    Worst { side: usize },
     /// The 256 colours of the scale from 0 to 1, and that of unknown, as red, green and blue.
-    Colours,
+    Colours {},
     /// The circular room: its limits, its sensor, and the grid of cells of this size.
     Room { range: String, sigma: String, resolution: String },
     /// One cell, of the occupancy that this text says.

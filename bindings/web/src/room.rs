@@ -101,7 +101,10 @@ fn number<T: Real + FromStr>(text: &str) -> Result<T, String> {
     if text.to_ascii_lowercase().contains("0x") {
         return hex_float::parse(text).map_err(|error| error.to_string());
     }
-    text.parse().map_err(|_| if text.is_empty() { "no number is given" } else { "not a number" }.to_owned())
+    if text.is_empty() {
+        return Err("no number is given".to_owned());
+    }
+    text.parse().map_err(|_| format!("{text:?} is not a number"))
 }
 
 #[cfg(test)]

@@ -9,12 +9,16 @@ use mean_information_files::{Cells, Map, octree, read_map_from, with_grid};
 use mean_information_report::octree::MeasuredDepths;
 use mean_information_report::squares::{UNKNOWN, colour, squares};
 use mean_information_report::sweep::Sweep;
+use mean_information_report::worst::Worst;
 use mean_information_report::{MeasuredMap, Number, Record, Refused, Value, port, record, records};
 use serde_json::json;
 use std::path::Path;
 
 /// The opaque alpha of pictures.
 const OPAQUE: u8 = 255;
+
+/// The worst cells that are listed.
+const LISTED: usize = 10;
 
 /// The state between requests.
 pub(crate) struct Session {
@@ -49,7 +53,7 @@ impl Session {
         let request = serde_json::from_slice(request).map_err(|error| refusal(&error.to_string()))?;
         match request {
             Request::Squares { of, columns, rows, block } => self.squares(of, columns, rows, block),
-            Request::Colours => Ok(colours()),
+            Request::Colours {} => Ok(colours()),
             request => self.text(request).map(String::into_bytes),
         }
     }
@@ -68,7 +72,7 @@ impl Session {
                 self.rows.extend(rows);
                 Ok(text)
             }
-            Request::Forget => {
+            Request::Forget {} => {
                 self.rows.clear();
                 self.open = Open::Nothing;
                 Ok(String::new())
@@ -78,8 +82,9 @@ impl Session {
                 Format::Csv => record::to_csv(&records(&self.rows)),
             }),
             Request::Open { name, reading } => self.open(name, &reading),
-            Request::Sweep => self.sweep(),
+            Request::Sweep {} => self.sweep(),
             Request::Cell { of, column, row } => self.cell(of, column, row),
+            Request::Worst { side } => Ok(record::to_json(&Value::Record(worst_of(self.cells()?, side)))),
             Request::Room { range, sigma, resolution } => {
                 let room = Room::new(&range, &sigma, &resolution).map_err(|why| refusal(&why))?;
                 let text = record::to_json(&Value::Record(room.record.clone()));
@@ -91,7 +96,7 @@ impl Session {
                 Ok(record::to_json(&Value::Record(record)))
             }
             Request::Port { line } => Ok(port::answer(line.as_bytes()).unwrap_or_default()),
-            Request::Squares { .. } | Request::Colours => Err(refusal("a picture is no text")),
+            Request::Squares { .. } | Request::Colours {} => Err(refusal("a picture is no text")),
         }
     }
 
@@ -110,7 +115,7 @@ impl Session {
             let ([x, y], yaw) = (grid.geometry().origin(), grid.geometry().yaw());
             json!({
                 "cells": true, "width": grid.width(), "height": grid.height(), "resolution_m": map.resolution,
-                "x": x, "y": y, "yaw": yaw,
+                "x": x, "y": y, "yaw": yaw, "percent": matches!(map.cells, Cells::Percent(_)),
             })
         });
         self.open = Open::Map(name, map);
@@ -197,6 +202,31 @@ fn looked_at<E: Encoding>(grid: &Grid<E>, column: usize, row: usize) -> Option<R
     Some(Record(entries))
 }
 
+/// Returns the record of what leaves the most doubt in a map: cells, and the square of `side` cells a side.
+fn worst_of(cells: &Cells, side: usize) -> Record {
+    let worst = Worst::of_cells(cells, LISTED, side);
+    let count = |x: usize| Value::Count(x as u64);
+    let place = |[row, column]: [usize; 2]| [("column", count(column)), ("row", count(row))];
+    let listed = worst.cells.iter().filter_map(|&at| {
+        let Record(entries) = with_grid!(cells, grid => looked_at(grid, at[1], at[0]))?;
+        Some(Record(place(at).into_iter().chain(entries).collect()))
+    });
+    let mut entries = vec![("cells", Value::Records(listed.collect())), ("equal", Value::Count(worst.equal))];
+    if let Some(square) = worst.square {
+        let computed = |x| Value::Computed(Some(x));
+        let mut of_square: Vec<_> = place([square.rows.start, square.columns.start]).into();
+        of_square.extend([
+            ("width", count(square.columns.len())),
+            ("height", count(square.rows.len())),
+            ("observed", Value::Count(square.observed)),
+            ("entropy", computed(square.entropy)),
+            ("mean_information", computed(square.mean_information)),
+        ]);
+        entries.push(("square", Value::Record(Record(of_square))));
+    }
+    Record(entries)
+}
+
 /// Returns the colours of the scale, and that of unknown.
 fn colours() -> Vec<u8> {
     let scale = (0..=255).map(|k| colour(f64::from(k) / 255.0));
@@ -233,7 +263,7 @@ mod tests {
         let files = json!([
             { "name": "map.yaml", "length": YAML.len() }, { "name": "map.pgm", "length": PGM.len() },
         ]);
-        ask(&mut session, &json!({ "ask": "files", "files": files })).unwrap();
+        ask(&mut session, &json!({ "files": { "files": files } })).unwrap();
         session
     }
 
@@ -249,41 +279,48 @@ mod tests {
     fn a_map_is_measured_looked_at_and_forgotten() {
         let mut session = with_files();
         let reading = json!({});
-        let rows = text(&mut session, &json!({ "ask": "measure", "name": "map.yaml", "reading": reading }));
+        let rows = text(&mut session, &json!({ "measure": { "name": "map.yaml", "reading": reading } }));
         assert!(rows.contains("\"mean_information\": 0.72957"), "{rows}");
-        assert_eq!(text(&mut session, &json!({ "ask": "rows", "format": "json" })), rows);
-        let opened = text(&mut session, &json!({ "ask": "open", "name": "map.yaml", "reading": reading }));
+        assert_eq!(text(&mut session, &json!({ "rows": { "format": "json" } })), rows);
+        let opened = text(&mut session, &json!({ "open": { "name": "map.yaml", "reading": reading } }));
         assert!(opened.contains("\"width\":2") && opened.contains("\"x\":1.0"), "{opened}");
-        let squares = json!({ "ask": "squares", "of": "map", "columns": [0, 2], "rows": [0, 2], "block": 1 });
+        let squares = json!({ "squares": { "of": "map", "columns": [0, 2], "rows": [0, 2], "block": 1 } });
         let pixels = ask(&mut session, &squares).unwrap();
         // From the top: occupied and unknown, then free and grey 64.
         let [certain, unknown] = [colour(1.0), UNKNOWN].map(|[r, g, b]| [r, g, b, OPAQUE]);
         assert_eq!([&pixels[..4], &pixels[4..8], &pixels[8..12]], [certain, unknown, certain]);
-        let cell = text(&mut session, &json!({ "ask": "cell", "of": "map", "column": 1, "row": 0 }));
+        let cell = text(&mut session, &json!({ "cell": { "of": "map", "column": 1, "row": 0 } }));
         assert!(cell.contains("\"p\": 0.75,") && cell.contains("\"unknown\": false"), "{cell}");
-        assert!(text(&mut session, &json!({ "ask": "sweep" })).contains("\"k\": 2"));
-        ask(&mut session, &json!({ "ask": "forget" })).unwrap();
-        assert_eq!(text(&mut session, &json!({ "ask": "rows", "format": "json" })), "[]\n");
+        assert!(text(&mut session, &json!({ "sweep": {} })).contains("\"k\": 2"));
+        // One cell is neither certain nor unknown: the worst, and the square that begins lowest and holds it.
+        let worst: serde_json::Value =
+            serde_json::from_str(&text(&mut session, &json!({ "worst": { "side": 1 } }))).unwrap();
+        assert_eq!(worst["cells"].as_array().map(Vec::len), Some(1));
+        assert_eq!((&worst["cells"][0]["column"], &worst["cells"][0]["p"]), (&json!(1), &json!(0.75)));
+        assert_eq!((&worst["equal"], &worst["square"]["column"]), (&json!(1), &json!(1)));
+        assert_eq!(worst["square"]["entropy"], worst["cells"][0]["entropy"]);
+        ask(&mut session, &json!({ "forget": {} })).unwrap();
+        assert_eq!(text(&mut session, &json!({ "rows": { "format": "json" } })), "[]\n");
         assert!(ask(&mut session, &squares).is_err());
     }
 
     #[test]
     fn a_refusal_is_a_line_and_names_the_image_that_lacks() {
         let mut session = with_files();
-        let measure = |name| json!({ "ask": "measure", "name": name, "reading": { "mode": "scale" } });
+        let measure = |name| json!({ "measure": { "name": name, "reading": { "mode": "scale" } } });
         let refused = ask(&mut session, &measure("other.yaml")).unwrap_err();
         assert!(
             refused.contains("other.yaml: cannot be read") && refused.contains("\"missing_image\":null"),
             "{refused}"
         );
-        let alone = json!({ "ask": "files", "files": [{ "name": "map.yaml", "length": YAML.len() }] });
+        let alone = json!({ "files": { "files": [{ "name": "map.yaml", "length": YAML.len() }] } });
         ask(&mut session, &alone).unwrap();
         let refused = ask(&mut session, &measure("map.yaml")).unwrap_err();
         assert!(refused.contains("\"missing_image\":\"map.pgm\""), "{refused}");
         for request in [
-            json!({ "ask": "nothing" }),
+            json!({ "nothing": {} }),
             json!(3),
-            json!({ "ask": "measure", "name": "a", "reading": { "mode": "x" } }),
+            json!({ "measure": { "name": "a", "reading": { "mode": "x" } } }),
         ] {
             assert!(ask(&mut session, &request).is_err(), "{request}");
         }

@@ -37,6 +37,7 @@
 //! | [`sweep`] | the measures against the size of cells |
 //! | `cell_cache` | cells by their stored value |
 //! | [`squares`] | the information of squares of cells, and its colours |
+//! | [`worst`] | the cells and the square of cells that leave the most doubt |
 
 mod cell_cache;
 pub mod clamp;
@@ -53,6 +54,7 @@ pub mod squares;
 pub mod submaps;
 pub mod sweep;
 pub mod words;
+pub mod worst;
 
 pub use clamp::Clamp;
 pub use measured_map::{MeasuredMap, Reading, records};

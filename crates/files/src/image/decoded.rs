@@ -16,6 +16,11 @@ use image::error::ImageError;
 use image::{ColorType, ImageDecoder, ImageFormat, ImageReader, Limits};
 use std::io::{self, BufRead, BufReader, Seek, SeekFrom};
 
+/// A file that is read from any place.
+pub(super) trait Input: BufRead + Seek {}
+
+impl<R: BufRead + Seek> Input for R {}
+
 /// The bytes of pixels that any file may claim.
 const ANY_CLAIM: u64 = 64 << 20;
 /// The most bytes of pixels for a byte of the file beyond that: no format here compresses a uniform image more.
@@ -46,9 +51,9 @@ pub(crate) enum Quirk {
 }
 
 impl Decoded {
-    /// Decodes an image.
-    pub(super) fn open<R: BufRead + Seek>(
-        mut input: R,
+    /// Decodes an image. The input is of one type to the decoders, so that each is compiled once.
+    pub(super) fn open(
+        mut input: &mut dyn Input,
         format: ImageFormat,
         colours: Colours,
         max_cells: u64,
@@ -62,14 +67,13 @@ impl Decoded {
         input.rewind()?;
         let mut pixels = match (format, palette) {
             (_, Some(palette)) => {
-                let numbered = BufReader::new(palette.numbered(&mut input));
-                let reader = ImageReader::with_format(numbered, format);
-                let mut pixels = decode(reader.into_decoder().map_err(refused)?, limit)?;
+                let mut numbered = BufReader::new(palette.numbered(&mut *input));
+                let mut pixels = decode_as(&mut numbered, format, limit)?;
                 pixels.keep_first_channel();
                 pixels
             }
             (ImageFormat::Pnm, None) => {
-                let decoder = PnmDecoder::new(&mut input).map_err(refused)?;
+                let decoder = PnmDecoder::new(&mut *input).map_err(refused)?;
                 let bitmap = decoder.header().as_bitmap().is_some();
                 let largest = if bitmap { 255 } else { decoder.header().maximal_sample() };
                 let mut pixels = decode(decoder, limit)?;
@@ -81,10 +85,7 @@ impl Decoded {
                 }
                 pixels
             }
-            _ => {
-                let reader = ImageReader::with_format(&mut input, format);
-                decode(reader.into_decoder().map_err(refused)?, limit)?
-            }
+            _ => decode_as(&mut *input, format, limit)?,
         };
         // The decoder gives every GIF an alpha.
         if format == ImageFormat::Gif {
@@ -255,6 +256,11 @@ impl Pixels {
         self.bytes = pixels.flat_map(|(colours, alpha)| colours.iter().chain([alpha])).copied().collect();
         self.channels = if self.channels == Channels::Grey { Channels::GreyAlpha } else { Channels::Rgba };
     }
+}
+
+/// Decodes an image of this format.
+fn decode_as(input: &mut dyn Input, format: ImageFormat, limit: Limit) -> Result<Pixels, Error> {
+    decode(ImageReader::with_format(input, format).into_decoder().map_err(refused)?, limit)
 }
 
 /// Decodes the first image of a file.

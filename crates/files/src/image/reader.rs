@@ -28,7 +28,9 @@ impl<R: BufRead + Seek> Image<R> {
         match Reader::of(input.fill_buf()?, name)? {
             Reader::Pgm => Pgm::open(input, most.pgm).map(Self::Pgm),
             Reader::Png => Png::open(input, colours, most.png).map(|png| Self::Png(Box::new(png))),
-            Reader::Decoded(format) => Decoded::open(input, format, colours, most.decoded).map(Self::Decoded),
+            Reader::Decoded(format) => {
+                Decoded::open(&mut input, format, colours, most.decoded).map(Self::Decoded)
+            }
         }
     }
 

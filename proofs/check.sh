@@ -3,7 +3,7 @@
 # this source (cargo test --test proofs); of src/limit the tables (Arb, where there is python-flint). Prints one line per proof and, last, "N passed, N failed". See proofs/README.md.
 #
 #     proofs/check.sh            every proof
-#     proofs/check.sh quick      of the vector kernels' intervals every sixteenth, as all take half an hour
+#     proofs/check.sh quick      of the vector kernels' intervals every sixteenth, as all take some 20 minutes
 #     proofs/check.sh NAME...    only these, of the names it prints
 #
 # SOURCE_TEST replaces the last command, and ROWS is a file of the vector kernels' rows; proofs/mutate.py uses both to build
@@ -89,7 +89,7 @@ rows() {
 }
 
 # The vector kernels: each row of their tables, then their scripts for each value and binade of distances, or interval of log-odds.
-rows rows.sollya "${ROWS:-}" lanes::tests::rows_for_the_proof 57630
+rows rows.sollya "${ROWS:-}" lanes::tests::rows_for_the_proof 119070
 rows log_odds_rows.sollya "" log_odds::tests::rows_for_the_proof 89782
 for script in proofs/lanes_*.gappa proofs/log_odds_*.gappa; do
     wanted "$(basename "$script")" || continue

@@ -75,6 +75,12 @@ def of_log_odds(file, quotation, in_steps=(), fused=()):
     return edits
 
 
+def complements(quotation, definition):
+    """The same of a line of `complements`, which the kernels of log-odds in `f64` run, too."""
+    scripts = [f"proofs/log_odds_f64{fused}.gappa" for fused in ("", "_fused")]
+    return lanes(LANES, quotation, definition) + [(file, *edit) for file in scripts for edit in (quotation, definition)]
+
+
 FUSED = [script for script in LANES if "fused" in script]
 TWO_STEPS = [script for script in LANES if "fused" not in script]
 
@@ -242,11 +248,11 @@ MUTATIONS = [
      + [(f"proofs/{script}.gappa", "below = rnd(rnd(head * -ERROR) + tail);", "below = rnd(rnd(head * ERROR) + tail);")
         for script in TWO_STEPS]),
     ("lanes: 1 - V from above on both sides, in both", "lanes_f64_fused.gappa",
-     lanes(LANES, ("let lower = rest - (above + tiny);", "let lower = rest - (below + tiny);"),
-           ("lower = rnd(rest - rnd(above + tiny));", "lower = rnd(rest - rnd(below + tiny));"))),
+     complements(("let lower = rest - (above + tiny);", "let lower = rest - (below + tiny);"),
+                 ("lower = rnd(rest - rnd(above + tiny));", "lower = rnd(rest - rnd(below + tiny));"))),
     ("lanes: what 1 - V loses, without V, in both", "lanes_f32.gappa",
-     lanes(LANES, ("let rest = (T::one() - complement) - head;", "let rest = T::one() - complement;"),
-           ("rest = rnd(rnd(1 - complement) - head);", "rest = rnd(1 - complement);"))),
+     complements(("let rest = (T::one() - complement) - head;", "let rest = T::one() - complement;"),
+                 ("rest = rnd(rnd(1 - complement) - head);", "rest = rnd(1 - complement);"))),
     ("lanes: a sum's low origin at the end of its binade, in both", "sum_f32.gappa",
      [(file, "(Self::high_origin() + Self::high_origin()) *", "(Self::high_origin() + T::one()) *")
       for file in (KERNEL, "proofs/sum_f32.gappa", "proofs/sum_f64.gappa")]
@@ -295,7 +301,7 @@ MUTATIONS = [
      [("proofs/log_odds_regions.sollya", "(1 - x^2) / 2 * diff", "(1 - x^2) / 3 * diff")]),
     ("rows.sollya: the error of f32 values 2^-25", "rows.sollya",
      [("proofs/rows.sollya", 'certify("f32", "value", 2^(-24));', 'certify("f32", "value", 2^(-25));')]),
-    ("rows: the last bit of one value", "rows.sollya", [("rows", "9704117", "9704107")]),
+    ("rows: the last bit of one value", "rows.sollya", [("rows", "12196936 * 2^(-56)", "12196937 * 2^(-56)")]),
 ]
 
 

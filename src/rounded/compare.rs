@@ -115,7 +115,7 @@ fn scaled_entropy(m: u64, e: i32, fraction: usize) -> (Ball, i32) {
 
 /// Compares `H` at log-odds `m 2^e`.
 pub(super) fn entropy_from_log_odds(m: u64, e: i32, midpoint: Midpoint) -> bool {
-    decide(|fraction| {
+    decide_from(2, |fraction| {
         let (entropy, k) = scaled_entropy(m, e, fraction);
         entropy.is_above(&Ball::ln2(fraction).scaled(midpoint.m, midpoint.exponent + k))
     })
@@ -126,7 +126,7 @@ pub(super) fn information_from_log_odds(m: u64, e: i32, midpoint: Midpoint) -> b
     if is_small(e) {
         // l = m 2^-53 2^scale, and d = tanh(l/2) = (1 - x) / (1 + x) with x = e^-l, where 1 - x = l E(l).
         let scale = e + 53;
-        return decide(|fraction| {
+        return decide_from(2, |fraction| {
             let l = Ball::dyadic(m, e, fraction);
             let quotient = l.exp_quotient();
             let one_and_x = Ball::dyadic(2, 0, fraction).minus(&l.times(&quotient));
@@ -134,7 +134,7 @@ pub(super) fn information_from_log_odds(m: u64, e: i32, midpoint: Midpoint) -> b
             information_is_above(&root, scale, midpoint)
         });
     }
-    decide(|fraction| {
+    decide_from(2, |fraction| {
         let (entropy, k) = scaled_entropy(m, e, fraction);
         complement(Ball::ln2(fraction), midpoint).is_above(&entropy.scaled(1, -k))
     })
@@ -142,7 +142,7 @@ pub(super) fn information_from_log_odds(m: u64, e: i32, midpoint: Midpoint) -> b
 
 /// Compares the occupancy at log-odds `±m 2^e`: `q` below 0, `1 - q` above.
 pub(super) fn occupancy(m: u64, e: i32, negative: bool, midpoint: Midpoint) -> bool {
-    decide(|fraction| {
+    decide_from(2, |fraction| {
         let (q, k) = smaller_probability_at_log_odds(m, e, fraction);
         // q > c is q 2^k > c 2^k, and 1 - q > c is 1 - c > q.
         if negative {

@@ -86,8 +86,8 @@ impl<T: Real> Tally<T> {
     ///
     /// Equal, bit for bit, to the tally of the single cells (Eqs. 2 to 4; proved,
     /// [`sums`](crate::book::sums), "Many cells at once"), and many times as fast (feature `std`): blocks
-    /// of cells are summed up by the processor's vector unit. The first call makes a table of 192 KB (`f64`),
-    /// in a millisecond.
+    /// of cells are summed up by the processor's vector unit. The first call makes a table of 384 KB (`f64`),
+    /// in two milliseconds.
     ///
     /// A value outside `[0, 1]`, or NaN, is not counted in [`Tally::cells`]; [`Grid::new`](crate::map::Grid::new) refuses it.
     ///

@@ -103,11 +103,16 @@ impl Ball {
     pub(crate) fn times(&self, other: &Self) -> Self {
         let n = self.limbs.len();
         let product = limbs::product(&self.limbs, &other.limbs);
-        // |ab - a'b'| <= a' eb + b' ea + ea eb, and ea eb is below one unit: ea, eb < 2^128, and a unit is at most 2^-256.
+        // |ab - a'b'| <= a' eb + b' ea + ea eb; a unit is at most 2^-128, so that ea eb is at most that of their upper halves.
+        let both = ((self.error >> 64) + 1).saturating_mul((other.error >> 64) + 1);
         let error = (self.integer_part() + 1)
             .saturating_mul(other.error)
             .saturating_add((other.integer_part() + 1).saturating_mul(self.error));
-        Self { limbs: product[n - 1..2 * n - 1].to_vec(), error: error.saturating_add(2) }
+        // The cut adds a unit.
+        Self {
+            limbs: product[n - 1..2 * n - 1].to_vec(),
+            error: error.saturating_add(both).saturating_add(1),
+        }
     }
 
     /// Divides by a divisor in `[1, 2]`, with a quotient below 2, bit by bit.

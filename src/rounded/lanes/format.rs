@@ -5,7 +5,7 @@ use crate::real::Real;
 /// The significand bits by which a distance finds its centre: each binade has `2^CELL_BITS` centres.
 pub(super) const CELL_BITS: u32 = 7;
 /// The centres of one half of the table, a power of two so that an index is a mask.
-pub(super) const HALF: usize = 2048;
+pub(super) const HALF: usize = 4096;
 
 /// Names a format of floats and the integer of its bits: one lane of a vector.
 pub(crate) trait Lane: Real {
@@ -15,6 +15,8 @@ pub(crate) trait Lane: Real {
     const BINADES: i32;
     /// Bounds the sums: information at distances from unknown below `2^-NEAREST` has bits below theirs.
     const NEAREST: i32;
+    /// Bounds the sums: entropies at distances from certain below `2^-SUREST` have bits below theirs.
+    const SUREST: i32;
     /// Counts the coefficients of the polynomial.
     const TERMS: usize;
     /// Bounds the error before rounding, relative to the value that is summed up: theorem (blocks), *Error*.
@@ -50,11 +52,12 @@ pub(crate) trait Lane: Real {
 }
 
 macro_rules! impl_lane {
-    ($float:ident, $word:ident, $signed:ident, $binades:literal, $nearest:literal, $terms:literal, $slope:literal, $error:literal) => {
+    ($float:ident, $word:ident, $signed:ident, $binades:literal, $nearest:literal, $surest:literal, $terms:literal, $slope:literal, $error:literal) => {
         impl Lane for $float {
             type Word = $word;
             const BINADES: i32 = $binades;
             const NEAREST: i32 = $nearest;
+            const SUREST: i32 = $surest;
             const TERMS: usize = $terms;
             const ERROR: Self = $error;
             const OPEN: Self = -1.0;
@@ -121,5 +124,5 @@ macro_rules! impl_lane {
     };
 }
 
-impl_lane!(f32, u32, i32, 16, 10, 3, 12, 7.4e-11); // 2^-33.65
-impl_lane!(f64, u64, i64, 16, 16, 6, 24, 6e-20); // 2^-63.85
+impl_lane!(f32, u32, i32, 32, 10, 24, 3, 12, 7.4e-11); // 2^-33.65
+impl_lane!(f64, u64, i64, 32, 24, 32, 6, 24, 6e-20); // 2^-63.85

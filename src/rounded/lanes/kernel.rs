@@ -108,7 +108,8 @@ impl Block {
     ) -> Self {
         let rows = table.rows::<ENTROPY>();
         let (zero, one) = (T::zero(), T::one());
-        let [nearest, least] = [T::NEAREST, T::BINADES].map(|binades| T::from_parts(1, -binades));
+        let surest = if ENTROPY { T::SUREST } else { T::BINADES };
+        let [nearest, least] = [T::NEAREST, surest].map(|binades| T::from_parts(1, -binades));
         let mut marks = [mark::OPEN; BLOCK];
         let (mut entropy, mut information) = (Sum::new(), Sum::new());
         for (&p, mark) in cells.iter().zip(&mut marks) {
@@ -221,7 +222,7 @@ pub(super) fn value<T: Lane, const FUSED: bool, const ENTROPY: bool>(
     // Series: exact, since `x` and `c` agree in their leading bits.
     let h = x - c;
     let y = h * inverse;
-    // Series: exact, since a centre is a multiple of `2^-24`.
+    // Series: exact in `f64`, where a centre is a multiple of `2^-41`; in `f32` so far down as that is of `2^-24`.
     let b = if near {
         -c
     } else if ENTROPY {

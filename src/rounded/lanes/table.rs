@@ -114,8 +114,18 @@ fn around(q: f64) -> (Both, Fixed, f64) {
     // Series: |dV/dq| = |l| / ln 2, and dq/dc = ±1/2: the scale 127 of the constant, of which 128 are dropped.
     let magnitude = log_odds::magnitude(m, -e);
     let slope = Fixed { value: mul_high(magnitude.value, INV_LN2), exponent: magnitude.exponent };
-    // Error, `v(c)`: the middle of an enclosure. Products of `q` are exact, so the quotient is rounded once.
-    ((beyond_float::middle(entropy), beyond_float::middle(information)), slope, 0.5 / (q * (1.0 - q)))
+    // Error, `v(c)`: the middle of an enclosure.
+    ((beyond_float::middle(entropy), beyond_float::middle(information)), slope, inverse(q))
+}
+
+/// Computes `1 / (2 q (1 - q))` to the nearest float.
+fn inverse(q: f64) -> f64 {
+    // The product in two parts, and the quotient with what is left of it.
+    let rest = 1.0 - q;
+    let product = q * rest;
+    let lost = q.mul_add(rest, -product);
+    let quotient = 0.5 / product;
+    quotient + (quotient.mul_add(-product, 0.5) - quotient * lost) / product
 }
 
 /// Returns the nearest float, and the float nearest to what is left.

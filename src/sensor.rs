@@ -74,6 +74,9 @@ pub trait InverseSensorModel {
     }
 }
 
+/// The number `√(ln 4)`, as `sqrt` and `ln` round it, in either format.
+const ROOT_OF_LN_4: f64 = 1.177_410_022_515_474_7;
+
 /// The model of Eq. 5: a range `z` read with Gaussian noise of standard deviation `σ`,
 /// `p(ρ) = exp(-((ρ - z) / (σ √2))^2)` for `ρ <= z + σ √(ln 4)`, and 1/2 beyond.
 ///
@@ -132,8 +135,7 @@ impl<T: Real> InverseSensorModel for GaussianSensor<T> {
     /// Computes `z + σ √(ln 4)`, within 2 ulp and never too short (proved in [`rounding`](crate::book::rounding)):
     /// `occupancy` is 1/2 at every greater float. Infinite where the sum overflows.
     fn reach(&self) -> T {
-        let two = T::one() + T::one();
-        let mut reach = self.range + self.sigma * sqrt(two * ln(two));
+        let mut reach = self.range + self.sigma * T::nearest(ROOT_OF_LN_4);
         // The roundings may have left it short by two floats. The model falls beyond z: one float at 1/2 speaks for the rest.
         while reach.is_finite() {
             let (m, e) = reach.parts();
@@ -266,5 +268,20 @@ impl<T: Real> InverseSensorModel for SteppedSensor<T> {
         } else {
             self.far
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_root_is_that_of_the_logarithm_in_either_format() {
+        fn computed<T: Real>() -> T {
+            let two = T::one() + T::one();
+            sqrt(two * ln(two))
+        }
+        assert_eq!(ROOT_OF_LN_4, computed::<f64>());
+        assert_eq!(f32::nearest(ROOT_OF_LN_4), computed::<f32>());
     }
 }

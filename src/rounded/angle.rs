@@ -67,6 +67,60 @@ pub(crate) fn cos_sin(turns: u128) -> [i64; 2] {
     }
 }
 
+/// Converts a finite angle of `x` radians to turns modulo 1, in units of `2^-64`, within 10 units.
+#[inline]
+pub(crate) fn short_turns(x: f64) -> u64 {
+    let (m, e) = x.parts();
+    // Cut after 64 bits 1 / (2π) lacks less than 2^-64, which makes 8 units up to 8 radians; the floor another.
+    let turns = if x.abs() <= 8.0 {
+        let product = u128::from(m) * u128::from(TURNS_PER_RADIAN[0]);
+        product.checked_shr(e.unsigned_abs()).unwrap_or(0) as u64
+    } else {
+        return (turns(x) >> 64) as u64;
+    };
+    if x < 0.0 { turns.wrapping_neg() } else { turns }
+}
+
+/// Computes the cosine and the sine of an angle in turns, given in units of `2^-64`, within `2^-52` ([`scan`](crate::book::scan),
+/// Theorem (ends in floats)).
+#[inline]
+pub(crate) fn short_cos_sin(turns: u64) -> [f64; 2] {
+    // As in `cos_sin`, the part of a quarter turn and its complement, scale 62, and the middles of 128 parts.
+    let part = turns & ((1 << 62) - 1);
+    let is_swapped = part > 1 << 61;
+    let part = if is_swapped { (1 << 62) - part } else { part };
+    let middle = ((part >> 54) as usize).min(MIDDLES.len() - 1);
+    let [cos, sin] = SHORT_MIDDLES[middle];
+    // The angle from there in radians, of magnitude at most π 2^-10, its sine, and what the cosine lacks to 1.
+    let a = (part as i64 - ((2 * middle as i64 + 1) << 53)) as f64 * SHORT_HALF_PI;
+    let square = a * a;
+    let rise = a - a * square * (1.0 / 6.0 - square * (1.0 / 120.0));
+    let fall = square * (0.5 - square * (1.0 / 24.0));
+    let (cos, sin) = (cos - (cos * fall + sin * rise), sin - (sin * fall - cos * rise));
+    let [cos, sin] = if is_swapped { [sin, cos] } else { [cos, sin] };
+    match turns >> 62 {
+        0 => [cos, sin],
+        1 => [-sin, cos],
+        2 => [-cos, -sin],
+        _ => [sin, -cos],
+    }
+}
+
+/// The number `π / 2` in units of scale 62, as a float.
+const SHORT_HALF_PI: f64 = HALF_PI as f64 / (1_u128 << 126) as f64 / (1_u64 << 62) as f64;
+
+/// The [`MIDDLES`] as floats.
+static SHORT_MIDDLES: [[f64; 2]; 128] = {
+    let mut middles = [[0.0; 2]; 128];
+    let mut k = 0;
+    while k < 128 {
+        let [cos, sin] = MIDDLES[k];
+        middles[k] = [cos as f64 / QUARTER as f64, sin as f64 / QUARTER as f64];
+        k += 1;
+    }
+    middles
+};
+
 /// Swaps cosine and sine: those of the complement of an angle to a quarter turn.
 #[inline]
 fn swapped([cos, sin]: [i64; 2]) -> [i64; 2] {
@@ -248,6 +302,19 @@ mod tests {
                 let error: BigInt = (BigInt::from(found) << 200) - exact(turns, first);
                 let hundredths = (error * 100) >> 200;
                 prop_assert!((-51..51).any(|k| hundredths == k.into()), "{hundredths} hundredths of a unit");
+            }
+        }
+
+        /// Against what is computed to 128 and to 62 bits.
+        #[test]
+        fn short_turns_and_functions_are_near(x in prop_oneof![any::<f64>().prop_filter("finite", |x| x.is_finite()), -9.0_f64..9.0], part in part(), turn in 0_u128..4, is_beyond in any::<bool>()) {
+            let (short, long) = (short_turns(x), (turns(x) >> 64) as u64);
+            prop_assert!(short.wrapping_sub(long).min(long.wrapping_sub(short)) <= 10);
+            let angle = (turn << 126).wrapping_add(if is_beyond { QUARTER - part } else { part });
+            for (near, exact) in short_cos_sin((angle >> 64) as u64).into_iter().zip(cos_sin(angle)) {
+                // As integers of scale 62, exactly; an angle is cut by 2 π units of scale 64.
+                let near = (near * (1_u64 << 62) as f64) as i64;
+                prop_assert!(near.abs_diff(exact) <= 1 << 10, "{near} {exact}");
             }
         }
 

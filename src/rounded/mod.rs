@@ -49,7 +49,7 @@ mod round;
 pub(crate) mod wide_elementary;
 mod ziv;
 
-pub(crate) use angle::{cos_sin, turns};
+pub(crate) use angle::{cos_sin, short_cos_sin, short_turns, turns};
 pub(crate) use cell::{CellEnclosures, occupancy_from_log_odds};
 pub(crate) use distance::{Coordinate, distance, multiple};
 pub(crate) use elementary::{exp, ln};

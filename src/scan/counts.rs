@@ -148,10 +148,9 @@ impl<C: Pair> Counts<C> {
     fn change(&mut self, readings: &Readings, mut change: impl FnMut(&mut C, C)) {
         for row in readings.area.rows() {
             let counts = self.cells.row_mut(readings.area, row);
-            for (start, codes) in readings.told(row) {
-                for (counts, &code) in counts[start..].iter_mut().zip(codes) {
-                    change(counts, C::of(code));
-                }
+            let (start, codes) = readings.told(row);
+            for (counts, &code) in counts[start..].iter_mut().zip(codes) {
+                change(counts, C::of(code));
             }
         }
         for reading in &readings.others {

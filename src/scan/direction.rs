@@ -46,13 +46,6 @@ impl Direction {
         Self { cos, sin }
     }
 
-    /// Returns how far a length goes along the axis along which it goes further, cut: within 2 units.
-    #[inline]
-    pub(super) fn longer_part(self, length: u64) -> u64 {
-        let part = self.cos.unsigned_abs().max(self.sin.unsigned_abs());
-        ((u128::from(length) * u128::from(part)) >> 62) as u64
-    }
-
     /// Returns the cosine: an integer of units of `2^-62` rounded once to nearest ([`scan`](crate::book::scan)).
     pub fn cos(self) -> f64 {
         self.cos as f64 / SCALE

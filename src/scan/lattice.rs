@@ -47,6 +47,19 @@ impl Lattice {
         self.resolution
     }
 
+    /// Returns the number of units of a metre, within a part in `2^52`; an infinity for the smallest resolutions.
+    #[inline]
+    pub(super) fn units(self) -> f64 {
+        UNITS / self.resolution
+    }
+
+    /// Returns the point that is so many units away; `None` beyond [`END`].
+    #[inline]
+    pub(super) fn moved(start: Point, by: Point) -> Option<Point> {
+        let point = [start[0] + by[0], start[1] + by[1]];
+        point.iter().all(|x| x.unsigned_abs() <= END).then_some(point)
+    }
+
     /// Finds the lattice point nearest to a coordinate in metres, ties to even; `None` beyond [`END`].
     pub(super) fn nearest(self, x: f64) -> Option<i64> {
         let (m, e) = x.parts();

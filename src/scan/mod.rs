@@ -20,6 +20,8 @@ mod beams;
 mod columns;
 mod counts;
 mod direction;
+mod ends;
+mod fans;
 mod inserted;
 mod jackknife;
 mod lattice;
@@ -33,6 +35,7 @@ mod readings;
 #[cfg(test)]
 mod reference;
 mod scan_map;
+mod stretches;
 mod sums;
 mod tallied;
 mod totals;

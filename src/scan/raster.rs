@@ -58,6 +58,11 @@ impl Area {
         [0, 1].map(|k| (self.high[k] - self.low[k]) as usize)
     }
 
+    /// Returns the area of so many columns from the lowest cell on.
+    pub(super) fn with_columns(self, columns: usize) -> Self {
+        Self { high: [self.low[0] + columns as i64, self.high[1]], ..self }
+    }
+
     /// Counts the cells.
     pub(super) fn cells(self) -> u128 {
         let [columns, rows] = [0, 1].map(|k| self.high[k].abs_diff(self.low[k]));
@@ -139,6 +144,11 @@ impl<C: Copy> Raster<C> {
     pub(super) fn row_mut(&mut self, area: Area, row: i64) -> &mut [C] {
         let range = self.range(area, row);
         &mut self.cells[range]
+    }
+
+    /// Returns all values, to be changed.
+    pub(super) fn all_mut(&mut self) -> &mut [C] {
+        &mut self.cells
     }
 
     /// Returns the place in the raster of a cell, which it must hold.

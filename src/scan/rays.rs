@@ -1,19 +1,20 @@
 //! The beams of one scan on the lattice, and what they say of the cells that they cross: Eq. 5, or another inverse sensor model,
 //! at the distance of each cell's centre, once for each cell.
 
-use super::beams::Scan;
-use super::columns;
-use super::direction::Direction;
+use super::beams::{Beam, Scan};
+use super::columns::Track;
+use super::ends::Ends;
+use super::fans::shares;
 use super::inserted::Print;
 use super::lattice::{FRACTION, Lattice, Point};
 use super::raster::Area;
 use super::readings::{Drafts, Limit, Readings};
-use super::traversal::{Traversal, cell_of};
+use super::traversal::cell_of;
 use crate::cell;
 use crate::error::Error;
 use crate::real::Real;
-use crate::rounded::turns;
 use crate::sensor::InverseSensorModel;
+use alloc::vec;
 use alloc::vec::Vec;
 
 /// The beams of one scan as segments from one point.
@@ -24,6 +25,8 @@ pub(super) struct Rays<M: InverseSensorModel> {
     /// The rectangle that holds the cells of the start and of all ends.
     area: Area,
     segments: Vec<Segment<M>>,
+    /// True if bearings fall from beam to beam, as far as the first and the last tell.
+    is_clockwise: bool,
 }
 
 /// A beam on the lattice.
@@ -59,12 +62,14 @@ impl<T: Real, M: InverseSensorModel<Float = T>> Rays<M> {
     ) -> Result<Self, Error> {
         let start = start(lattice, scan)?;
         let area = Area::of_cell(cell_of(start));
-        let mut rays = Self { lattice, limit, start, area, segments: Vec::with_capacity(scan.beams().len()) };
-        let heading = turns(scan.pose().theta());
-        for (index, beam) in scan.beams().iter().enumerate() {
-            // That of the exact sum of heading and bearing.
-            let direction = Direction::of_turns(heading.wrapping_add(turns(beam.bearing)));
-            let segment = rays.segment(scan.maximum_range(), beam.range, direction, &model, index)?;
+        let beams = scan.beams();
+        let is_clockwise = beams.first().zip(beams.last()).is_some_and(|(a, b)| a.bearing > b.bearing);
+        let segments = Vec::with_capacity(beams.len());
+        let mut rays = Self { lattice, limit, start, area, segments, is_clockwise };
+        // That of the exact sum of heading and bearing.
+        let ends = Ends::new(lattice, start, scan.pose().theta());
+        for (index, beam) in beams.iter().enumerate() {
+            let segment = rays.segment(&ends, scan.maximum_range(), beam, &model, index)?;
             rays.area = rays.area.union(Area::of_cell(cell_of(segment.end)));
             rays.segments.push(segment);
         }
@@ -75,13 +80,14 @@ impl<T: Real, M: InverseSensorModel<Float = T>> Rays<M> {
     #[inline]
     fn segment(
         &self,
+        ends: &Ends,
         maximum_range: T,
-        range: Option<T>,
-        direction: Direction,
+        beam: &Beam<T>,
         model: impl Fn(T) -> Result<M, Error>,
         index: usize,
     ) -> Result<Segment<M>, Error> {
-        let Self { lattice, limit, start, .. } = *self;
+        let Self { lattice, limit, .. } = *self;
+        let range = beam.range;
         let model = model(range.unwrap_or(maximum_range))?;
         let is_return = range.is_some();
         let reach = model.reach();
@@ -95,7 +101,7 @@ impl<T: Real, M: InverseSensorModel<Float = T>> Rays<M> {
         if !(length >= 0.0 && length.is_finite()) {
             return Err(far());
         }
-        let end = lattice.along(start, direction, length).ok_or_else(far)?;
+        let (end, part) = ends.end(beam.bearing, length).ok_or_else(far)?;
         let nearest = model.occupancy(T::zero());
         let (nearest, plateau) = if nearest >= T::zero() && nearest <= limit.surely_free() {
             // The same reading, whatever the occupancy.
@@ -106,7 +112,8 @@ impl<T: Real, M: InverseSensorModel<Float = T>> Rays<M> {
         } else {
             (nearest, 0)
         };
-        let sure = direction.longer_part(plateau.saturating_sub(TO_CENTRE));
+        // The margin has room for what the part lacks.
+        let sure = (plateau.saturating_sub(TO_CENTRE) as f64 * part) as u64;
         let (obstacle, wall) = match model.obstacle() {
             Some(([from, to], p)) => {
                 let to = u128::from(lattice.units_within(to.widen()));
@@ -145,12 +152,18 @@ impl<T: Real, M: InverseSensorModel<Float = T>> Rays<M> {
         };
         let free = self.segments.iter().find(is_free).map_or(T::nan(), |segment| segment.nearest);
         let mut drafts = Drafts::new(self.area, free, max_cells)?;
-        for (index, segment) in self.segments.iter().enumerate() {
-            let rest = match drafts.free(segment.nearest) {
-                Some(raster) => columns::mark(self.start, segment.end, segment.sure, raster),
-                None => Traversal::new(self.start, segment.end),
-            };
-            for cell in rest {
+        let track = |segment: &Segment<M>| {
+            let sure = if segment.nearest == free { segment.sure } else { 0 };
+            Track::new(self.start, segment.end, sure)
+        };
+        let tracks: Vec<Track> = self.segments.iter().map(track).collect();
+        let shares = if drafts.canvas.is_shared() {
+            shares(&tracks, self.is_clockwise)
+        } else {
+            vec![[0; 2]; tracks.len()]
+        };
+        for (index, ((segment, track), shared)) in self.segments.iter().zip(&tracks).zip(shares).enumerate() {
+            for cell in track.draw(shared, &mut drafts.canvas) {
                 let p = self.occupancy(segment, cell);
                 if !cell::in_unit_interval(p) {
                     let what = "occupancy by the model of beam";

@@ -3,6 +3,7 @@
 //! Nearly all cells of a scan are told one of two things, free or occupied. These are a byte each in a raster of the scan's
 //! rectangle; what remains is a list.
 
+use super::columns::Canvas;
 use super::raster::{Area, Raster};
 use crate::error::Error;
 use crate::real::Real;
@@ -33,12 +34,16 @@ pub(super) struct Readings {
 }
 
 impl Readings {
-    /// Returns the codes of a row where any are, in pieces of some cells, each with the number of its first cell in the row: of most
-    /// of the rectangle the scan says nothing.
+    /// Returns the codes of a row from the first that is any to the last, and some more, with the number of the first in the row.
     #[inline]
-    pub(super) fn told(&self, row: i64) -> impl Iterator<Item = (usize, &[u8])> {
-        let pieces = self.codes.row(self.area, row).chunks(PIECE).enumerate();
-        pieces.filter(|(_, codes)| is_told(codes)).map(|(number, codes)| (PIECE * number, codes))
+    pub(super) fn told(&self, row: i64) -> (usize, &[u8]) {
+        let codes = self.codes.row(self.area, row);
+        let is_told = |codes: &[u8; PIECE]| u128::from_ne_bytes(*codes) != 0;
+        let (pieces, _) = codes.as_chunks();
+        let start = PIECE * pieces.iter().position(is_told).unwrap_or(pieces.len());
+        let (_, pieces) = codes[start..].as_rchunks();
+        let empty = pieces.iter().rev().take_while(|codes| !is_told(codes)).count();
+        (start, &codes[start..codes.len() - PIECE * empty])
     }
 
     /// Calls `each` for each reading.
@@ -53,11 +58,10 @@ impl Readings {
     pub(super) fn try_for_each<E>(&self, mut each: impl FnMut(Reading) -> Result<(), E>) -> Result<(), E> {
         let first = self.area.low()[0];
         for row in self.area.rows() {
-            for (start, codes) in self.told(row) {
-                let columns = first + start as i64..;
-                for (column, &code) in columns.zip(codes).filter(|&(_, &code)| code != NOTHING) {
-                    each(Reading { cell: [column, row], log_odds: self.levels[usize::from(code - FREE)] })?;
-                }
+            let (start, codes) = self.told(row);
+            let columns = first + start as i64..;
+            for (column, &code) in columns.zip(codes).filter(|&(_, &code)| code != NOTHING) {
+                each(Reading { cell: [column, row], log_odds: self.levels[usize::from(code - FREE)] })?;
             }
         }
         self.others.iter().copied().try_for_each(each)
@@ -66,13 +70,6 @@ impl Readings {
 
 /// So many cells are passed over at once if nothing is said of them: the bytes of an integer.
 const PIECE: usize = 16;
-
-/// Tells whether one of the codes is not [`NOTHING`].
-#[inline]
-fn is_told(codes: &[u8]) -> bool {
-    let all = <[u8; PIECE]>::try_from(codes).map(u128::from_ne_bytes);
-    all.map_or_else(|_| codes.iter().any(|&code| code != NOTHING), |all| all != 0)
-}
 
 /// The limits on the log-odds of a reading.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -116,7 +113,7 @@ impl<T: Real> Limit<T> {
 /// The readings of a scan while its beams are drawn.
 pub(super) struct Drafts<T> {
     area: Area,
-    codes: Raster<u8>,
+    pub(super) canvas: Canvas,
     /// The occupancies of [`FREE`] and [`OCCUPIED`]; NaN, which is equal to none, before there is one.
     levels: [T; 2],
     /// The places of occupied cells, which are drawn when all free ones are.
@@ -138,19 +135,14 @@ impl<T: Real> Drafts<T> {
     /// # Errors
     /// [`Error::TooManyCells`] if there are more cells than the limit, or no memory for them.
     pub(super) fn new(area: Area, free: T, max_cells: u64) -> Result<Self, Error> {
-        let codes = Raster::new(area, NOTHING, max_cells)?;
-        Ok(Self { area, codes, levels: [free, T::nan()], occupied: Vec::new(), others: Vec::new() })
-    }
-
-    /// Returns the raster in which free cells may be marked by [`FREE`], if `p` is what the scan says of them.
-    pub(super) fn free(&mut self, p: T) -> Option<&mut Raster<u8>> {
-        (p == self.levels[0]).then_some(&mut self.codes)
+        let canvas = Canvas::new(area, max_cells)?;
+        Ok(Self { area, canvas, levels: [free, T::nan()], occupied: Vec::new(), others: Vec::new() })
     }
 
     /// Adds what a beam says of a cell: an occupancy that is not 1/2.
     #[inline]
     pub(super) fn say(&mut self, cell: [i64; 2], p: T) {
-        let index = self.codes.index(cell);
+        let index = self.canvas.codes.index(cell);
         let level = &mut self.levels[usize::from(p > T::HALF)];
         if level.is_nan() {
             *level = p;
@@ -160,15 +152,16 @@ impl<T: Real> Drafts<T> {
         } else if p > T::HALF {
             self.occupied.push(index);
         } else {
-            self.codes.set(index, FREE);
+            self.canvas.codes.set(index, FREE);
         }
     }
 
     /// Chooses the strongest reading of each cell, and limits its log-odds.
     pub(super) fn readings(mut self, limit: &Limit<T>) -> Readings {
+        let mut codes = self.canvas.settled();
         // Of an occupied and a free one the occupied.
         for &index in &self.occupied {
-            self.codes.set(index, OCCUPIED);
+            codes.set(index, OCCUPIED);
         }
         self.others.sort_unstable_by_key(|other| other.index);
         // Neighbours often have the same.
@@ -176,14 +169,14 @@ impl<T: Real> Drafts<T> {
         let mut others = Vec::new();
         for alike in self.others.chunk_by(|a, b| a.index == b.index) {
             let Other { index, cell, .. } = alike[0];
-            let level = match self.codes.at(index) {
+            let level = match codes.at(index) {
                 NOTHING => T::HALF,
                 code => self.levels[usize::from(code - FREE)],
             };
             let p = alike.iter().fold(level, |p, other| stronger(p, other.p));
             // Else the level was the stronger one.
             if p != level {
-                self.codes.set(index, NOTHING);
+                codes.set(index, NOTHING);
                 if p != last.0 {
                     last = (p, limit.reading(p));
                 }
@@ -191,7 +184,7 @@ impl<T: Real> Drafts<T> {
             }
         }
         let levels = self.levels.map(|p| if p.is_nan() { 0 } else { limit.reading(p) });
-        Readings { area: self.area, codes: self.codes, levels, others }
+        Readings { area: self.area, codes, levels, others }
     }
 }
 

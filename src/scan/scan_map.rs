@@ -28,8 +28,8 @@ use core::marker::PhantomData;
 ///   cells and one of occupied, as those of a [`SteppedSensor`](crate::sensor::SteppedSensor) have; 8 from 65 536 scans on;
 ///   with more values 16, [with agreement](Self::with_agreement) 32;
 /// * room to spare, half as much again on each side that grew, and while the map grows the old and the new one;
-/// * while a scan is inserted or removed, a byte for each cell of the rectangle of that scan, some 300 for each beam, and some 60
-///   for each reading of a third value;
+/// * while a scan is inserted or removed, up to two and a half bytes for each cell of the rectangle of that scan, some 500 for each
+///   beam, and some 60 for each reading of a third value;
 /// * some 60 bytes for each scan.
 ///
 /// ```

@@ -1,7 +1,7 @@
 //! Sums of any readings: integers of 128 bits for each cell, and their magnitudes if wanted.
 
 use super::raster::{Area, Raster};
-use super::readings::Readings;
+use super::readings::{FREE, OCCUPIED, Readings};
 use crate::error::Error;
 
 /// For each cell the sum of the log-odds that scans told it, and if wanted that of their magnitudes, in units of `2^-80` nats.
@@ -51,12 +51,10 @@ impl Totals {
     pub(super) fn add(&mut self, readings: &Readings, is_removal: bool) {
         let sign = if is_removal { -1 } else { 1 };
         // 2^41 scans of 40 nats would not fill the integer: `scan.md`, "The sum".
-        readings.for_each(|reading| {
-            *self.log_odds.cell_mut(reading.cell) += sign * reading.log_odds;
-            if let Some(magnitudes) = &mut self.magnitudes {
-                *magnitudes.cell_mut(reading.cell) += sign * reading.log_odds.abs();
-            }
-        });
+        change(&mut self.log_odds, readings, |log_odds| sign * log_odds);
+        if let Some(magnitudes) = &mut self.magnitudes {
+            change(magnitudes, readings, |log_odds| sign * log_odds.abs());
+        }
     }
 
     /// Tells whether magnitudes are no less than the sums that they belong to, in the cells of these readings.
@@ -99,5 +97,22 @@ impl Totals {
     pub(super) fn are_within(&self, area: Area, inner: Option<Area>) -> bool {
         let is_zero = |raster: &Raster<i128>| raster.is_filled_outside(area, inner, 0);
         is_zero(&self.log_odds) && self.magnitudes.as_ref().is_none_or(is_zero)
+    }
+}
+
+/// Adds to the sum of each cell what `of` makes of its reading, which makes 0 of 0.
+fn change(sums: &mut Raster<i128>, readings: &Readings, of: impl Fn(i128) -> i128) {
+    let [free, occupied] = readings.levels.map(&of);
+    // By code.
+    let levels = [0, free, occupied, 0];
+    for row in readings.area.rows() {
+        let sums = sums.row_mut(readings.area, row);
+        let (start, codes) = readings.told(row);
+        for (sum, &code) in sums[start..].iter_mut().zip(codes) {
+            *sum += levels[usize::from(code & (FREE | OCCUPIED))];
+        }
+    }
+    for reading in &readings.others {
+        *sums.cell_mut(reading.cell) += of(reading.log_odds);
     }
 }

@@ -9,18 +9,19 @@ use super::lattice::{FRACTION, Point};
 /// the two beside it are not met. So the cells are those whose interior the segment meets, those along whose lower or
 /// left edge it runs, and those that hold its ends.
 ///
-/// No rounding: the next line is that of the smaller of two fractions `a / |dx|` and `b / |dy|`, compared as the
-/// integers `a |dy|` and `b |dx|`, below `2^125`.
+/// No rounding: where the segment crosses the next line of its longer axis, it has come `next / long` units beyond the last line of
+/// the other that it crossed, in integers below `2^93`; if that is more than a cell, it crosses the other one before.
 #[derive(Clone, Debug)]
 pub(super) struct Traversal {
     cell: [i64; 2],
+    forward: [bool; 2],
+    is_steep: bool,
     /// The number of lines of the grid yet to be crossed, per axis.
     left: [u64; 2],
-    /// The place at which the next line is crossed, and the distance between two lines, along the segment of length
-    /// `|dx| |dy|`.
-    next: [u128; 2],
-    apart: [u128; 2],
-    forward: [bool; 2],
+    /// As those of [`Steps`].
+    next: u128,
+    step: u128,
+    side: u128,
     done: bool,
 }
 
@@ -37,10 +38,17 @@ pub(super) struct Steps {
     pub(super) cell: [i64; 2],
     /// The number of lines of the grid that it crosses.
     pub(super) lines: [u64; 2],
-    /// How far it goes, and how far it is to the first line: below `2^62`.
+    /// How far it goes: below `2^62`.
     pub(super) sides: [u64; 2],
-    pub(super) to_line: [u64; 2],
     pub(super) forward: [bool; 2],
+    /// The longer axis, and how far it is to the first line of it.
+    pub(super) long: usize,
+    pub(super) to_line: u64,
+    /// How far from a line of the other axis it is where it crosses the first line of the longer one, how much further at each next
+    /// one, and how far from line to line: in units of `2^-28` of a cell over the longer side.
+    pub(super) next: u128,
+    pub(super) step: u128,
+    pub(super) side: u128,
 }
 
 impl Steps {
@@ -52,33 +60,40 @@ impl Steps {
         let line = |k: usize| ((cell[k] + i64::from(forward[k])) << FRACTION).abs_diff(from[k]);
         let lines = [cell[0].abs_diff(last[0]), cell[1].abs_diff(last[1])];
         let sides = [to[0].abs_diff(from[0]), to[1].abs_diff(from[1])];
-        let to_line = [line(0), line(1)];
-        Self { cell, lines, sides, to_line, forward }
+        let long = usize::from(sides[0] < sides[1]);
+        let (to_line, beside) = (line(long), line(1 - long));
+        let [long_side, wide_side] = [sides[long], sides[1 - long]].map(u128::from);
+        let side = long_side << FRACTION;
+        // From the line behind, if there were one.
+        let next = side - u128::from(beside) * long_side + u128::from(to_line) * wide_side;
+        Self { cell, lines, sides, forward, long, to_line, next, step: wide_side << FRACTION, side }
     }
 
-    /// Begins the traversal in the cell after so many lines of either axis, which the caller knows to be the first ones, in some
-    /// order.
+    /// Begins the traversal in the cell after so many lines of the longer axis and of the other, the first ones in some order, where
+    /// it crosses the next line of the longer at `next`.
     #[inline]
-    pub(super) fn beyond(self, lines: [u64; 2]) -> Traversal {
-        let Self { cell, sides, to_line, forward, .. } = self;
-        // Below 2^62, and below 2^125 times the other side.
-        let next = |k: usize| u128::from(to_line[k] + (lines[k] << FRACTION)) * u128::from(sides[1 - k]);
-        let moved = |k: usize| if forward[k] { lines[k] as i64 } else { -(lines[k] as i64) };
-        Traversal {
-            cell: [cell[0] + moved(0), cell[1] + moved(1)],
-            left: [self.lines[0] - lines[0], self.lines[1] - lines[1]],
-            next: [next(0), next(1)],
-            apart: [u128::from(sides[1]) << FRACTION, u128::from(sides[0]) << FRACTION],
-            forward,
-            done: false,
-        }
+    pub(super) fn beyond(self, [columns, rows]: [u64; 2], next: u128) -> Traversal {
+        let crossed = if self.long == 0 { [columns, rows] } else { [rows, columns] };
+        let left = [self.lines[0] - crossed[0], self.lines[1] - crossed[1]];
+        let Self { forward, long, step, side, .. } = self;
+        let cell = self.cell_after(crossed);
+        Traversal { cell, forward, is_steep: long == 1, left, next, step, side, done: false }
+    }
+
+    /// Returns the cell after so many lines of either axis.
+    #[inline]
+    fn cell_after(&self, crossed: [u64; 2]) -> [i64; 2] {
+        let moved = |k: usize| if self.forward[k] { crossed[k] as i64 } else { -(crossed[k] as i64) };
+        [self.cell[0] + moved(0), self.cell[1] + moved(1)]
     }
 }
 
 impl Traversal {
     /// Begins in the cell that holds `from`.
+    #[cfg(test)]
     pub(super) fn new(from: Point, to: Point) -> Self {
-        Steps::new(from, to).beyond([0; 2])
+        let steps = Steps::new(from, to);
+        steps.beyond([0; 2], steps.next)
     }
 
     /// Crosses the next line of an axis.
@@ -86,7 +101,6 @@ impl Traversal {
     fn cross(&mut self, axis: usize) {
         self.cell[axis] += if self.forward[axis] { 1 } else { -1 };
         self.left[axis] -= 1;
-        self.next[axis] += self.apart[axis];
     }
 }
 
@@ -99,19 +113,24 @@ impl Iterator for Traversal {
             return None;
         }
         let cell = self.cell;
+        let long = usize::from(self.is_steep);
         match self.left {
             [0, 0] => self.done = true,
             [_, 0] => self.cross(0),
             [0, _] => self.cross(1),
+            // Both, through a corner.
+            _ if self.next == self.side => {
+                self.cross(0);
+                self.cross(1);
+                self.next = self.step;
+            }
+            _ if self.next > self.side => {
+                self.cross(1 - long);
+                self.next -= self.side;
+            }
             _ => {
-                // Both, through a corner.
-                let [x, y] = self.next;
-                if x <= y {
-                    self.cross(0);
-                }
-                if y <= x {
-                    self.cross(1);
-                }
+                self.cross(long);
+                self.next += self.step;
             }
         }
         Some(cell)

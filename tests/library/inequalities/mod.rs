@@ -30,7 +30,7 @@ fn all() -> impl Iterator<Item = &'static Inequality> {
 }
 
 /// The statements that no search at points can try, and why.
-const ELSEWHERE: [(&str, &str, &str); 23] = [
+const ELSEWHERE: [(&str, &str, &str); 25] = [
     ("cell", "Theorem (no ties)", "no inequality"),
     ("evidence", "Theorem (removal)", "an equality, bit for bit: tests/library/scan/removal.rs"),
     (
@@ -61,6 +61,12 @@ const ELSEWHERE: [(&str, &str, &str); 23] = [
         "Theorem (ends)",
         "of integers that are not public: src/scan/lattice.rs, against exact quotients",
     ),
+    (
+        "scan",
+        "Theorem (ends in floats)",
+        "of integers that are not public: src/scan/ends.rs, against exact quotients",
+    ),
+    ("scan", "Theorem (fans)", "an equality: src/scan/fans.rs, against the cells of each beam"),
     ("scan", "Theorem (sure cells)", "an equality, bit for bit: src/scan/reference.rs, cell by cell"),
     ("scan", "Theorem (columns)", "an equality: src/scan/columns.rs, against the traversal line by line"),
     ("scan", "Theorem (counts)", "an equality, bit for bit: src/scan/reference.rs"),

@@ -1,0 +1,161 @@
+//! Neighbouring beams of a scan, which share cells near the sensor: between the first and the last of a fan all cells are free, as
+//! far as each is less than a cell from the next.
+
+use super::columns::{Shared, Track};
+use alloc::vec::Vec;
+
+/// Finds what each beam of a scan shares with its neighbours. Bearings rise from beam to beam, or fall, or are in any order: what is
+/// found is right, and less.
+pub(super) fn shares(tracks: &[Track], is_clockwise: bool) -> Vec<Shared> {
+    let mut fans = Fans::new(is_clockwise);
+    let mut shares = Vec::with_capacity(tracks.len());
+    let mut before = 0;
+    for (k, track) in tracks.iter().enumerate() {
+        let after = tracks.get(k + 1).map_or(0, |next| fans.shared(track, next));
+        shares.push([before.min(after), before.max(after)]);
+        before = after;
+    }
+    shares
+}
+
+/// The fans of a scan, one for each quarter of a turn, which is swept once: beams of a second sweep share nothing.
+struct Fans {
+    /// The sign of slopes that rise as beams come, for each quarter.
+    signs: [f64; 4],
+    /// How far each quarter has been swept: the slope of the last beam that shares cells with the one before.
+    swept: [f64; 4],
+    /// True if the last two beams share cells.
+    is_chain: bool,
+}
+
+/// Slopes and their differences are known within so much.
+const SLOPE_ERROR: f64 = 1.0 / (1_u64 << 50) as f64;
+
+impl Fans {
+    /// Begins a scan whose bearings rise from beam to beam, or fall.
+    fn new(is_clockwise: bool) -> Self {
+        // Counter-clockwise, slopes rise where x does, and fall where it falls; across, the other way round.
+        let signs = [-1.0, 1.0, 1.0, -1.0];
+        let signs = if is_clockwise { signs.map(|sign: f64| -sign) } else { signs };
+        Self { signs, swept: [f64::NEG_INFINITY; 4], is_chain: false }
+    }
+
+    /// Finds up to which column from 1 on a beam and the next one share cells: both mark these columns, and no cell lies between
+    /// them (`scan.md`, Theorem (fans)). 0 if they share none.
+    #[inline]
+    fn shared(&mut self, beam: &Track, next: &Track) -> u64 {
+        let quarter = beam.quarter();
+        let was_chain = core::mem::replace(&mut self.is_chain, false);
+        if next.quarter() != quarter {
+            return 0;
+        }
+        let slopes = [beam.slope, next.slope];
+        let [from, to] = slopes.map(|slope| self.signs[quarter] * slope);
+        let is_new = was_chain || from > self.swept[quarter] + SLOPE_ERROR;
+        if !(is_new && to > from + SLOPE_ERROR) {
+            return 0;
+        }
+        (self.swept[quarter], self.is_chain) = (to, true);
+        let [lower, upper] = if slopes[0] < slopes[1] { slopes } else { [slopes[1], slopes[0]] };
+        // As many columns as cells of distance from the sensor, and a steep beam goes across a part of a cell within a column.
+        let apart = 1.0 + lower.max(-upper).max(0.0) - SLOPE_ERROR;
+        let columns = apart / (upper - lower + SLOPE_ERROR);
+        beam.sure_columns().min(next.sure_columns()).min(columns as u64)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::columns::Canvas;
+    use super::super::lattice::{FRACTION, Point};
+    use super::super::raster::Area;
+    use super::super::readings::FREE;
+    use super::super::traversal::{Traversal, cell_of};
+    use super::*;
+    use proptest::collection::vec;
+    use proptest::prelude::*;
+    use std::collections::BTreeSet;
+
+    const CELL: i64 = 1 << FRACTION;
+
+    /// Beams as fractions of a turn from the first, with their lengths and the parts that are sure: a sweep, either way, of up to
+    /// two turns, or in any order.
+    fn beams() -> impl Strategy<Value = Vec<(f64, f64, f64)>> {
+        let lengths = (1.0_f64..90.0, 0.0_f64..0.5).prop_flat_map(|(length, rough)| {
+            vec((Just(length), 0.0..=rough, prop_oneof![3 => Just(1.0), 1 => 0.0_f64..1.0]), 2..60)
+        });
+        let step = prop_oneof![-0.01_f64..0.01, -0.04_f64..0.04, Just(1.0 / 64.0), Just(0.0)];
+        (lengths, step, 0.0_f64..0.01, prop_oneof![4 => Just(false), 1 => Just(true)]).prop_map(
+            |(lengths, step, jitter, is_mixed)| {
+                let beam = |(k, (length, rough, sure)): (usize, (f64, f64, f64))| {
+                    let part = (k as f64 * 0.618_033_988_749_894_9).fract();
+                    let turn = if is_mixed { part } else { k as f64 * step + jitter * part };
+                    (turn, length * (1.0 - rough), sure)
+                };
+                lengths.into_iter().enumerate().map(beam).collect()
+            },
+        )
+    }
+
+    /// Starts inside of cells, on lines and on corners.
+    fn start() -> impl Strategy<Value = Point> {
+        let place = || prop_oneof![-CELL..CELL, Just(0), Just(CELL / 2), Just(CELL - 1)];
+        [place(), place()]
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(300))]
+
+        /// The cells of all sure columns, whatever is shared, and no others.
+        #[test]
+        fn fans_are_the_cells_of_their_beams(start in start(), first in prop_oneof![0.0_f64..1.0, (0_u32..8).prop_map(|k| f64::from(k) / 8.0)], beams in beams(), is_clockwise in any::<bool>()) {
+            let mut area = Area::of_cell(cell_of(start)).with_columns(64);
+            let mut tracks = Vec::new();
+            let mut ends = Vec::new();
+            for &(turn, length, sure) in &beams {
+                let (sin, cos) = ((first + turn) * std::f64::consts::TAU).sin_cos();
+                let end = [cos, sin].map(|part| (length * part * CELL as f64).round() as i64);
+                let end = [start[0] + end[0], start[1] + end[1]];
+                area = area.union(Area::of_cell(cell_of(end)));
+                tracks.push(Track::new(start, end, (length * sure * CELL as f64) as u64));
+                ends.push(end);
+            }
+            let mut canvas = Canvas::new(area, u64::MAX).unwrap();
+            let mut expected = BTreeSet::new();
+            for ((track, shared), end) in tracks.iter().zip(shares(&tracks, is_clockwise)).zip(ends) {
+                let rest: Vec<_> = track.draw(shared, &mut canvas).collect();
+                let all: Vec<_> = Traversal::new(start, end).collect();
+                prop_assert_eq!(&rest[..], &all[all.len() - rest.len()..]);
+                expected.extend(all[..all.len() - rest.len()].iter().copied());
+            }
+            let codes = canvas.settled();
+            for row in area.rows() {
+                for (column, &code) in (area.low()[0]..).zip(codes.row(area, row)) {
+                    prop_assert_eq!(code == FREE, expected.contains(&[column, row]), "{:?}", [column, row]);
+                }
+            }
+        }
+    }
+
+    /// A scanner of half a turn at a quarter of a degree: near the sensor a beam has nothing to mark.
+    #[test]
+    fn dense_beams_share_nearly_all_columns() {
+        let track = |k: u32| {
+            let (sin, cos) = (f64::from(k) * 0.25_f64).to_radians().sin_cos();
+            let end = [cos, sin].map(|part| (60.0 * part * CELL as f64).round() as i64);
+            Track::new([CELL / 2, CELL / 2], end, u64::MAX >> 2)
+        };
+        for is_clockwise in [false, true] {
+            let mut tracks: Vec<_> = (0..720).map(track).collect();
+            if is_clockwise {
+                tracks.reverse();
+            }
+            let (mut shared, mut all) = (0, 0);
+            for (track, [both, _]) in tracks.iter().zip(shares(&tracks, is_clockwise)) {
+                (shared, all) = (shared + both, all + track.sure_columns());
+            }
+            assert!(shared * 100 > all * 98, "{shared} of {all}");
+            assert!(shares(&tracks, !is_clockwise).iter().all(|&shared| shared == [0, 0]));
+        }
+    }
+}

@@ -3,9 +3,9 @@
 //! "Columns" are those of the axis along which the segment is longer, rows for a steep one: it crosses at most one line of the
 //! other axis on its way from column to column.
 
+use super::codes::{FREE, NOTHING};
 use super::lattice::{FRACTION, Point};
 use super::raster::{Area, Raster};
-use super::readings::{FREE, NOTHING};
 use super::stretches::{self, Stretches};
 use super::traversal::{Steps, Traversal};
 use crate::error::Error;

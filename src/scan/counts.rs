@@ -1,7 +1,8 @@
 //! Sums of readings of two levels, as counts: how often each cell was told either.
 
+use super::codes::{FREE, OCCUPIED};
 use super::raster::{Area, Raster};
-use super::readings::{FREE, OCCUPIED, Readings};
+use super::readings::Readings;
 use crate::error::Error;
 use core::ops::{AddAssign, SubAssign};
 
@@ -196,7 +197,7 @@ impl<C: Pair> Counts<C> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::readings::NOTHING;
+    use super::super::codes::NOTHING;
     use super::*;
     use proptest::prelude::*;
 

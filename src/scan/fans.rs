@@ -66,10 +66,11 @@ impl Fans {
 
 #[cfg(test)]
 mod tests {
+    use super::super::codes::FREE;
     use super::super::columns::Canvas;
+    use super::super::direction::Direction;
     use super::super::lattice::{FRACTION, Point};
     use super::super::raster::Area;
-    use super::super::readings::FREE;
     use super::super::traversal::{Traversal, cell_of};
     use super::*;
     use proptest::collection::vec;
@@ -113,8 +114,8 @@ mod tests {
             let mut tracks = Vec::new();
             let mut ends = Vec::new();
             for &(turn, length, sure) in &beams {
-                let (sin, cos) = ((first + turn) * std::f64::consts::TAU).sin_cos();
-                let end = [cos, sin].map(|part| (length * part * CELL as f64).round() as i64);
+                let direction = Direction::new(&[(first + turn) * std::f64::consts::TAU]).unwrap();
+                let end = [direction.cos(), direction.sin()].map(|part| (length * part * CELL as f64).round() as i64);
                 let end = [start[0] + end[0], start[1] + end[1]];
                 area = area.union(Area::of_cell(cell_of(end)));
                 tracks.push(Track::new(start, end, (length * sure * CELL as f64) as u64));
@@ -141,8 +142,9 @@ mod tests {
     #[test]
     fn dense_beams_share_nearly_all_columns() {
         let track = |k: u32| {
-            let (sin, cos) = (f64::from(k) * 0.25_f64).to_radians().sin_cos();
-            let end = [cos, sin].map(|part| (60.0 * part * CELL as f64).round() as i64);
+            let direction = Direction::new(&[(f64::from(k) * 0.25_f64).to_radians()]).unwrap();
+            let end =
+                [direction.cos(), direction.sin()].map(|part| (60.0 * part * CELL as f64).round() as i64);
             Track::new([CELL / 2, CELL / 2], end, u64::MAX >> 2)
         };
         for is_clockwise in [false, true] {

@@ -17,6 +17,7 @@
 
 mod agreement;
 mod beams;
+mod codes;
 mod columns;
 mod counts;
 mod direction;

@@ -3,6 +3,7 @@
 //! Nearly all cells of a scan are told one of two things, free or occupied. These are a byte each in a raster of the scan's
 //! rectangle; what remains is a list.
 
+use super::codes::{FREE, NOTHING, OCCUPIED};
 use super::columns::Canvas;
 use super::raster::{Area, Raster};
 use crate::error::Error;
@@ -17,11 +18,6 @@ pub(super) struct Reading {
     pub(super) cell: [i64; 2],
     pub(super) log_odds: i128,
 }
-
-/// The codes of cells in the raster: nothing, or one of the two levels.
-pub(super) const NOTHING: u8 = 0;
-pub(super) const FREE: u8 = 1;
-pub(super) const OCCUPIED: u8 = 2;
 
 /// The readings of a scan, each cell once.
 pub(super) struct Readings {

@@ -1,7 +1,7 @@
 //! Stretches of cells along columns and rows, by their ends: a bit where one begins, and a bit behind its last cell.
 
+use super::codes::FREE;
 use super::raster::Area;
-use super::readings::FREE;
 use alloc::collections::TryReserveError;
 use alloc::vec::Vec;
 
@@ -101,8 +101,8 @@ static BYTES: [u64; 256] = {
 
 #[cfg(test)]
 mod tests {
+    use super::super::codes::NOTHING;
     use super::super::raster::Raster;
-    use super::super::readings::NOTHING;
     use super::*;
     use proptest::collection::vec;
     use proptest::prelude::*;
@@ -115,7 +115,7 @@ mod tests {
         ) {
             let area = Area::of_cell(low).union(Area::of_cell([low[0] + size[0] as i64 - 1, low[1] + size[1] as i64 - 1]));
             let whole = whole(area);
-            prop_assert!(whole.size()[0] < 2 * size[0] && whole.size()[0] % WORD == 0);
+            prop_assert!(whole.size()[0] < 2 * size[0] && whole.size()[0].is_multiple_of(WORD));
             let mut codes = Raster::new(whole, NOTHING, u64::MAX).unwrap();
             let mut stretches = Stretches::new(whole).unwrap();
             // Before the last cell: an end is a cell of the area.
@@ -135,10 +135,10 @@ mod tests {
                 }
             }
             stretches.mark(codes.all_mut());
-            for row in 0..size[1] {
-                for column in 0..size[0] {
-                    let is_between = |[from, to]: [usize; 2], k| from <= k && k < to;
-                    let expected = is_between(ends(rows[row], size[0]), column) || is_between(ends(columns[column], size[1]), row);
+            let is_between = |[from, to]: [usize; 2], k| from <= k && k < to;
+            for (row, &along) in rows.iter().enumerate().take(size[1]) {
+                for (column, &across) in columns.iter().enumerate().take(size[0]) {
+                    let expected = is_between(ends(along, size[0]), column) || is_between(ends(across, size[1]), row);
                     prop_assert_eq!(codes.at(index(column, row)) == FREE, expected, "{} {}", column, row);
                 }
             }

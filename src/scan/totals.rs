@@ -1,7 +1,8 @@
 //! Sums of any readings: integers of 128 bits for each cell, and their magnitudes if wanted.
 
+use super::codes::{FREE, OCCUPIED};
 use super::raster::{Area, Raster};
-use super::readings::{FREE, OCCUPIED, Readings};
+use super::readings::Readings;
 use crate::error::Error;
 
 /// For each cell the sum of the log-odds that scans told it, and if wanted that of their magnitudes, in units of `2^-80` nats.

@@ -261,7 +261,7 @@ export class Maps {
       this.#tell(`averaging the cells of ${name}`);
       this.#sweep(await this.#client.json({ ask: "sweep" }));
     } catch (error) {
-      element("no-picture").textContent = `No picture: ${error.message}.`;
+      element("no-picture").textContent = `No picture: ${onPage(error.message)}.`;
     } finally {
       this.#idle();
     }

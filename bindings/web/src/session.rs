@@ -67,7 +67,7 @@ impl Session {
             }
             Request::Measure { name, reading } => {
                 let rows = MeasuredMap::read_from(&self.files, Path::new(&name), &reading.reading());
-                let rows = rows.map_err(of_file)?;
+                let rows = rows.map_err(|refused| of_file(&refused))?;
                 let text = record::to_json(&records(&rows).into());
                 self.rows.extend(rows);
                 Ok(text)
@@ -105,12 +105,13 @@ impl Session {
         self.open = Open::Nothing;
         let (reading, path) = (reading.reading(), Path::new(&name));
         if octree::has_name(path) {
-            let depths = MeasuredDepths::read(&self.files, path, reading.clamp).map_err(of_file)?;
+            let depths = MeasuredDepths::read(&self.files, path, reading.clamp)
+                .map_err(|refused| of_file(&refused))?;
             self.open = Open::Tree(Sweep::of_depths(name, depths));
             return Ok(json!({ "cells": false }).to_string());
         }
         let map =
-            read_map_from(&self.files, path, &reading.options).map_err(|error| of_file(error.into()))?;
+            read_map_from(&self.files, path, &reading.options).map_err(|error| of_file(&error.into()))?;
         let text = with_grid!(&map.cells, grid => {
             let ([x, y], yaw) = (grid.geometry().origin(), grid.geometry().yaw());
             json!({
@@ -239,7 +240,7 @@ fn refusal(message: &str) -> String {
 }
 
 /// Returns the refusal of a file as JSON.
-fn of_file(refused: Refused) -> String {
+fn of_file(refused: &Refused) -> String {
     json!({ "message": refused.to_string(), "missing_image": refused.missing_image }).to_string()
 }
 

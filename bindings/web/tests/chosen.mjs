@@ -1,6 +1,6 @@
 // Files that are chosen one after the other: which image is taken, which result is shown, and in which words.
 import assert from "node:assert/strict";
-import { YAML, drop, idle, made, measured, npy, test } from "./harness.mjs";
+import { YAML, drop, idle, made, measured, npy, sparse, test } from "./harness.mjs";
 
 const pgm = (name, ...greys) => made(name, Buffer.concat([Buffer.from(`P5\n${greys.length} 1\n255\n`), Buffer.from(greys)]));
 const shows = (tab, name) => tab.waitForFunction((name) => document.getElementById("chosen").textContent === name, name);
@@ -70,4 +70,13 @@ await test("the page names its controls where the command names its options", as
   assert.doesNotMatch(warnings, options);
   const labels = await tab.textContent("#reading");
   for (const [, label] of warnings.matchAll(/“([^”]+)”/g)) assert.ok(`${labels}How files are read`.includes(label), label);
+});
+
+await test("a map of too many cells for a picture has its number, and the option for more is said to be the command's", async (tab) => {
+  await idle(tab);
+  const head = "P5\n16385 16384\n255\n";
+  await tab.setInputFiles("#files", [made("vast.yaml", YAML("vast.pgm")), sparse("vast.pgm", head, head.length + 16385 * 16384)]);
+  await tab.locator("#no-picture:not(:empty)").waitFor();
+  assert.match(await tab.textContent("#no-picture"), /--max-cells.*options of the command meaninfo, which this page has not/);
+  assert.equal(await tab.textContent("#number"), "1");
 });

@@ -5,6 +5,8 @@ mod common;
 use approx::abs_diff_eq;
 use common::schema::{assert_order, required};
 use common::*;
+use mean_information::map::encoding::LogOdds;
+use mean_information::map::{Geometry, Grid};
 use mean_information_test_support::formats::Node;
 use serde_json::Value;
 
@@ -55,6 +57,28 @@ fn rows_are_the_measures_of_pooled_maps() {
         assert_near(&row["information_bits"], information);
         assert_near(&row["entropy_bits"], p.iter().map(|&p| entropy(p)).sum());
         assert_twins(row, 3);
+    }
+}
+
+/// The bits of the grid of log-odds itself, pooled by the library; of unknown cells, and of odds beyond those of floats, too.
+#[test]
+fn log_odds_are_pooled_as_their_occupancies() {
+    let folder = Folder::new();
+    let odds: Vec<f64> =
+        (0..35).map(|k| [0.0, 0.3, -2.7, 1e-17, 40.0, -800.0][k % 6] * (k as f64 + 0.7)).collect();
+    let map = folder.npy_map("odds.npy", 7, &odds);
+    let text = stdout(&["sweep", &map, "--encoding", "log-odds", "--format", "json"]);
+    let json: Value = serde_json::from_str(&text).unwrap();
+    let geometry = Geometry::new(1.0, [0.0, 0.0]).unwrap();
+    let grid = Grid::<LogOdds<f64>>::new(7, 5, geometry, odds).unwrap();
+    let rows = json["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), 4);
+    for row in &rows[1..] {
+        let tally = grid.pooled(row["k"].as_u64().unwrap() as usize).unwrap().tally();
+        for (key, exact) in [("information_bits", tally.information()), ("entropy_bits", tally.entropy())] {
+            assert_eq!(row[key].as_f64(), Some(exact), "{row}");
+        }
+        assert_eq!(row["observed"], tally.observed());
     }
 }
 

@@ -4,7 +4,10 @@ use crate::measures::Measures;
 use crate::octree::MeasuredDepths;
 use crate::record::{Record, Value};
 use crate::words::in_words;
-use mean_information_files::{Map, octree, with_grid};
+use mean_information::map::Grid;
+use mean_information::map::encoding::{LogOdds, Probability};
+use mean_information::{Real, elementwise};
+use mean_information_files::{Cells, Map, octree, with_grid};
 
 /// The measures of a map at cells 1, 2, 4, ... times as wide, until one cell holds it all.
 #[derive(Debug)]
@@ -47,9 +50,11 @@ impl Sweep {
         let all = covering.ilog2() as usize;
         // The first power of two that covers both sides makes the map one cell; a map without cells stays as it is.
         let powers = std::iter::successors(Some(2_usize), |k| k.checked_mul(2));
+        let occupancies = occupancies(&map.cells)?;
+        let cells = occupancies.as_ref().unwrap_or(&map.cells);
         for k in powers.take_while(|k| k / 2 < width.max(height) && width.min(height) > 0) {
             begin([steps.len() - 1, all, k]);
-            let measures = with_grid!(&map.cells, grid => Measures::of_grid(&grid.pooled(k)?));
+            let measures = with_grid!(cells, grid => Measures::of_grid(&grid.pooled(k)?));
             steps.push(Step { k, measures });
         }
         let mut warnings = in_words(&map.warnings);
@@ -114,4 +119,19 @@ impl Sweep {
             ("warnings", Value::Texts(self.warnings.clone())),
         ]))
     }
+}
+
+/// Returns the occupancies of log-odds, so that they are computed once and not for each size of cells; `None` of other cells.
+fn occupancies(cells: &Cells) -> Result<Option<Cells>, mean_information::Error> {
+    Ok(match cells {
+        Cells::LogOdds32(grid) => Some(Cells::Probability32(of_log_odds(grid)?)),
+        Cells::LogOdds64(grid) => Some(Cells::Probability64(of_log_odds(grid)?)),
+        _ => None,
+    })
+}
+
+fn of_log_odds<T: Real>(grid: &Grid<LogOdds<T>>) -> Result<Grid<Probability<T>>, mean_information::Error> {
+    let mut cells = vec![T::zero(); grid.cells().len()];
+    elementwise::occupancy_from_log_odds(grid.cells(), &mut cells);
+    Grid::new(grid.width(), grid.height(), *grid.geometry(), cells)
 }

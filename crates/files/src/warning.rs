@@ -65,6 +65,22 @@ pub enum Warning {
         /// The grey that probably means unknown, of the image's own depth.
         unknown: Option<u16>,
     },
+    /// Grades beyond the thresholds are lost in mode scale: their cells are certain.
+    GradesClipped {
+        /// The number of grey levels that are lost, but for black, white and what map savers write.
+        levels: usize,
+        /// The number of cells of these levels.
+        count: u64,
+        /// The threshold of free cells.
+        free_thresh: f64,
+        /// The threshold of occupied cells.
+        occupied_thresh: f64,
+    },
+    /// An image has one grey for free and one for occupied cells at most, in probability mode.
+    TwoGreys {
+        /// The number of these greys, 1 or 2.
+        levels: usize,
+    },
     /// Thresholds are above 1, the largest occupancy.
     ThresholdsAbove1 {
         /// The threshold of free cells.

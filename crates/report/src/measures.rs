@@ -58,11 +58,14 @@ impl Measures {
         }
     }
 
-    /// Takes note of what was noticed when the map was read: sums that were rounded mean nothing.
+    /// Takes note of what was noticed when the map was read: sums that were rounded mean nothing, nor do two greys.
     #[must_use]
     pub fn noticing(mut self, warnings: &[Warning]) -> Self {
         if warnings.iter().any(|warning| matches!(warning, Warning::BesideUnknown { .. })) {
             self.not_meaningful = self.not_meaningful.or(Some(NotMeaningful::BesideUnknown));
+        }
+        if warnings.iter().any(|warning| matches!(warning, Warning::TwoGreys { .. })) {
+            self.not_meaningful = self.not_meaningful.or(Some(NotMeaningful::TwoValued));
         }
         self
     }
@@ -186,7 +189,7 @@ impl CellsVisitor for Sums {
 pub enum NotMeaningful {
     /// Every observed cell has `p` 0 or 1.
     Thresholded,
-    /// Every free leaf of an octree has one value, and every occupied leaf one.
+    /// Every free cell has one value, and every occupied cell one, of an octree or of an image.
     TwoValued,
     /// There are no cells.
     NoCells,
@@ -231,7 +234,7 @@ impl NotMeaningful {
                 "thresholded: every observed cell has p = 0 or 1, so the mean information is 1 whatever the map shows"
             }
             Self::TwoValued => {
-                "two-valued: every free leaf has one value and every occupied leaf one, so the mean information is of these \
+                "two-valued: every free cell has one value and every occupied cell one, so the mean information is of these \
                  two values and of how many cells have each, not of evidence"
             }
             Self::NoCells => "the map has no cells, so there is no mean information",

@@ -2,8 +2,9 @@
 
 use super::description::Description;
 use super::missing_image::missing_image;
+use super::pixel_table::TableIndex;
 use super::sink::{Found, Sink};
-use super::suspects::{SuspectGrey, greys_thresholded, of_image};
+use super::suspects::{SuspectGrey, grades_clipped, greys_thresholded, of_image, two_greys};
 use super::{nav2, nav2_humble, probability, ros1};
 use crate::error::{Error, ErrorKind};
 use crate::image::{Colours, Image, Rest};
@@ -71,9 +72,11 @@ fn read_image_as<K: Sink>(
     let mut warnings = description.warnings.clone();
     warnings.extend(thresholds.into_iter().flat_map(|thresholds| thresholds.warnings(options.semantics)));
     warnings.extend(image.is_jpeg().then_some(Warning::JpegLevels));
-    let (cells, Found { suspects, sums, white, rest }) = if mode == Mode::Probability {
+    let (cells, found) = if mode == Mode::Probability {
         let table = probability::table(description, &layout, options.unknown)?;
-        K::take::<Probability<f64>>(image, &table, geometry)?
+        let taken = K::take::<Probability<f64>>(image, &table, geometry)?;
+        warnings.extend(two_greys(&taken.1.sums, |sum| table.cell(TableIndex::Opaque(sum))));
+        taken
     } else {
         let table = match options.semantics {
             Semantics::Nav2 => nav2::table,
@@ -81,8 +84,15 @@ fn read_image_as<K: Sink>(
             Semantics::Ros1 => ros1::table,
         };
         warnings.extend(of_image(options.semantics, &image));
-        K::take::<Percent>(image, &table(description, mode, thresholds, &layout), geometry)?
+        let table = table(description, mode, thresholds, &layout);
+        let taken = K::take::<Percent>(image, &table, geometry)?;
+        if let (Mode::Scale, Some(thresholds), Some(white)) = (mode, thresholds, taken.1.white) {
+            let percent = |sum| table.cell(TableIndex::Opaque(sum));
+            warnings.extend(grades_clipped(&taken.1.sums, white, thresholds, percent));
+        }
+        taken
     };
+    let Found { suspects, sums, white, rest } = found;
     let warning = |(suspect, count): (SuspectGrey, u64)| suspect.warning(count, &layout, mode, description);
     warnings.extend(suspects.into_iter().filter_map(warning));
     if let (Mode::Trinary, Some(white)) = (mode, white) {

@@ -2,6 +2,7 @@
 //! itself may read in another way.
 
 use super::description::Description;
+use super::thresholds::Thresholds;
 use crate::image::{Image, Layout, Quirk};
 use crate::options::{Mode, Semantics};
 use crate::warning::{SAVED_UNKNOWN, Warning};
@@ -48,6 +49,8 @@ impl SuspectGrey {
         let much = count.saturating_mul(5) > layout.size.cells() as u64;
         match self {
             _ if count == 0 => None,
+            // nav2's own saver writes unknown cells so.
+            Self::SeeThrough if mode == Mode::Scale => None,
             Self::SeeThrough => Some(Warning::TransparentReadAsUnknown { count }),
             Self::AlphaAveraged => Some(Warning::AlphaAveraged { count }),
             Self::OutOfRange => Some(Warning::OutOfRangeReadAsUnknown { count }),
@@ -91,24 +94,64 @@ pub(super) fn of_image<R: BufRead + Seek>(semantics: Semantics, image: &Image<R>
 /// Greys that a thresholded map may have beside black and white: savers write 254 for free and 205 for unknown.
 const SAVED_FREE: u8 = 254;
 
-/// Returns the warning of a trinary image with many greys between those of the three states: where, of the cells of other
-/// greys than the one most often used, over a tenth has one of three or more greys that are neither black, white, nor what
-/// savers write.
-pub(super) fn greys_thresholded(sums: &[(usize, u64)], white: usize, layout: &Layout) -> Option<Warning> {
-    let level = |sum: usize| (sum * 255 + white / 2) / white;
-    let (commonest, most) = sums.iter().copied().max_by_key(|&(_, count)| count)?;
-    let others: u64 = sums.iter().map(|&(_, count)| count).sum::<u64>() - most;
-    let known = [0, SAVED_FREE, 255, SAVED_UNKNOWN].map(usize::from);
-    let between = |&&(sum, _): &&(usize, u64)| sum != commonest && !known.contains(&level(sum));
-    let (kinds, count) =
-        sums.iter().filter(between).fold((0, 0), |(kinds, sum), &(_, count)| (kinds + 1, sum + count));
-    if kinds < 3 || count * 10 <= others {
-        return None;
+/// The greys of an image whose grades are lost: neither black, white, nor what savers write, nor the one most often used.
+struct Lost {
+    /// How many greys there are.
+    kinds: usize,
+    /// The number of cells that have one of them.
+    count: u64,
+}
+
+impl Lost {
+    /// Finds these greys among sums of samples, where `is_lost` says of one that its grade is; `None` if there are fewer than
+    /// three, or if not over a tenth of the cells of other greys than the one most often used has one of them.
+    fn of(sums: &[(usize, u64)], white: usize, is_lost: impl Fn(usize) -> bool) -> Option<Self> {
+        let (commonest, most) = sums.iter().copied().max_by_key(|&(_, count)| count)?;
+        let others: u64 = sums.iter().map(|&(_, count)| count).sum::<u64>() - most;
+        let known = [0, SAVED_FREE, 255, SAVED_UNKNOWN].map(usize::from);
+        let lost = |&&(sum, _): &&(usize, u64)| {
+            sum != commonest && !known.contains(&level(sum, white)) && is_lost(sum)
+        };
+        let (kinds, count) =
+            sums.iter().filter(lost).fold((0, 0), |(kinds, all), &(_, count)| (kinds + 1, all + count));
+        (kinds >= 3 && count * 10 > others).then_some(Self { kinds, count })
     }
-    let often = |&&(sum, _): &&(usize, u64)| [127, 128, SAVED_UNKNOWN].map(usize::from).contains(&level(sum));
+}
+
+/// Returns the level of 255 of a sum of samples.
+fn level(sum: usize, white: usize) -> usize {
+    (sum * 255 + white / 2) / white
+}
+
+/// Returns the warning of a trinary image with many greys between those of the three states.
+pub(super) fn greys_thresholded(sums: &[(usize, u64)], white: usize, layout: &Layout) -> Option<Warning> {
+    let Lost { count, .. } = Lost::of(sums, white, |_| true)?;
+    let often =
+        |&&(sum, _): &&(usize, u64)| [127, 128, SAVED_UNKNOWN].map(usize::from).contains(&level(sum, white));
     let unknown = sums.iter().filter(often).max_by_key(|&&(_, count)| count);
     let own = |sum: usize| (sum * usize::from(layout.white) / white) as u16;
     // Of a deeper image than this the level is no grey of its own.
     let unknown = unknown.filter(|_| layout.white <= layout.max).map(|&(sum, _)| own(sum));
     Some(Warning::GreysThresholded { levels: sums.len(), count, unknown })
+}
+
+/// Returns the warning of an image in mode scale with many greys beyond the thresholds, which savers write 0.25 and 0.65;
+/// `percent` is what a sum of samples is read as.
+pub(super) fn grades_clipped(
+    sums: &[(usize, u64)],
+    white: usize,
+    thresholds: Thresholds,
+    percent: impl Fn(usize) -> i8,
+) -> Option<Warning> {
+    let Lost { kinds, count } = Lost::of(sums, white, |sum| matches!(percent(sum), 0 | 100))?;
+    let Thresholds { free, occupied } = thresholds;
+    Some(Warning::GradesClipped { levels: kinds, count, free_thresh: free, occupied_thresh: occupied })
+}
+
+/// Returns the warning of an image in mode probability whose cells have one grey for free and one for occupied, at most;
+/// `occupancy` is what a sum of samples is read as.
+pub(super) fn two_greys(sums: &[(usize, u64)], occupancy: impl Fn(usize) -> f64) -> Option<Warning> {
+    let greys = |is: fn(&f64) -> bool| sums.iter().map(|&(sum, _)| occupancy(sum)).filter(is).count();
+    let [free, occupied] = [greys(|&p| p < 0.5), greys(|&p| p > 0.5)];
+    (free < 2 && occupied < 2 && free + occupied > 0).then_some(Warning::TwoGreys { levels: free + occupied })
 }

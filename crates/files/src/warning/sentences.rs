@@ -46,6 +46,20 @@ impl fmt::Display for Warning {
                  unknown",
                 cells_in_words(count)
             ),
+            Self::GradesClipped { levels, count, free_thresh, occupied_thresh } => {
+                let [free, occupied] = [free_thresh, occupied_thresh].map(short);
+                write!(
+                    f,
+                    "{} of {levels} grey levels made certain by free_thresh {free} and occupied_thresh {occupied}; \
+                     thresholds of 0.0 and 1.0 keep their grades",
+                    cells_in_words(count)
+                )
+            }
+            Self::TwoGreys { levels } => write!(
+                f,
+                "the image has {levels} grey level{} beside unknown: it was thresholded before it was saved",
+                if levels == 1 { "" } else { "s" }
+            ),
             Self::ThresholdsAbove1 { free, occupied } => {
                 let above = free.max(occupied);
                 let [free, occupied] = [free, occupied].map(short);

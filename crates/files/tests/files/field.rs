@@ -208,7 +208,16 @@ fn cells_that_are_not_opaque_are_counted() {
         assert_eq!(read(&text, &with_alpha([255; 3]), &of(semantics)).1, []);
     }
     let probability = Options { mode: Some(Mode::Probability), unknown: Some(205.0), ..Options::default() };
-    assert_eq!(read(&text, &mixed, &probability).1, [Warning::TransparentReadAsUnknown { count: 4 }]);
+    let warnings = [Warning::TwoGreys { levels: 2 }, Warning::TransparentReadAsUnknown { count: 4 }];
+    assert_eq!(read(&text, &mixed, &probability).1, warnings);
+    // nav2's saver writes unknown cells so in mode scale.
+    let scale = Options { mode: Some(Mode::Scale), ..Options::default() };
+    let (counts, warnings) = read(&text, &mixed, &scale);
+    assert_eq!(counts, (2, 1, 6));
+    assert!(
+        matches!(warnings[..], [Warning::SavedUnknownReadAs { grey: 205, count: 1, .. }]),
+        "{warnings:?}"
+    );
 }
 
 /// 205 with an opaque alpha averages to 217.5, which is free.
@@ -235,12 +244,38 @@ fn many_greys_under_a_mode_of_three_states_are_said() {
     let (_, warnings) = read(&text, &pgm(10, 10, 255, &graded), &Options::default());
     let [Warning::GreysThresholded { unknown: Some(128), .. }] = warnings[..] else { panic!("{warnings:?}") };
     assert!(warnings[0].to_string().contains("grey levels"));
-    // In other modes, and for a few stray pixels, there is nothing to say.
-    let scale = Options { mode: Some(Mode::Scale), ..Options::default() };
-    assert_eq!(read(&text, &pgm(10, 10, 255, &graded), &scale).1, []);
+    // Where grades are kept, and for a few stray pixels, there is nothing to say.
+    let of = |mode| Options { mode: Some(mode), unknown: None, ..Options::default() };
+    let kept = text.replace("0.196", "0.0").replace("0.65", "1.0");
+    assert_eq!(read(&kept, &pgm(10, 10, 255, &graded), &of(Mode::Scale)).1, []);
+    // Occupancies of 0.65 and more are greys of 89 and less, of 0.196 and less 206 and more: 13 and 4 of them.
+    let (_, warnings) = read(&text, &pgm(10, 10, 255, &graded), &of(Mode::Scale));
+    let (free_thresh, occupied_thresh) = (0.196, 0.65);
+    assert_eq!(warnings, [Warning::GradesClipped { levels: 17, count: 17, free_thresh, occupied_thresh }]);
+    let words = "17 cells of 17 grey levels made certain by free_thresh 0.196 and occupied_thresh 0.65; thresholds of 0.0 and \
+                 1.0 keep their grades";
+    assert_eq!(warnings[0].to_string(), words);
     let stray: Vec<u16> =
         (0..100).map(|k| if k < 3 { 100 + k } else { [0, 205, 254][k as usize % 3] }).collect();
     assert_eq!(read(&text, &pgm(10, 10, 255, &stray), &Options::default()).1, []);
+}
+
+/// What thresholds left of a map does not become evidence by reading its greys as probabilities.
+#[test]
+fn two_greys_are_no_probabilities() {
+    let text = yaml("map.pgm", "negate: 0\n");
+    let options = |unknown| Options { mode: Some(Mode::Probability), unknown, ..Options::default() };
+    let warnings =
+        |greys: &[u16], unknown| read(&text, &pgm(greys.len(), 1, 255, greys), &options(unknown)).1;
+    for (greys, levels) in [(&[0, 205, 254, 254][..], 2), (&[205, 254][..], 1), (&[0, 205, 0][..], 1)] {
+        assert_eq!(warnings(greys, Some(205.0)), [Warning::TwoGreys { levels }]);
+    }
+    // A third grey, on either side; and nothing observed.
+    for greys in [&[0, 3, 205, 254][..], &[0, 205, 250, 254], &[205, 205]] {
+        assert_eq!(warnings(greys, Some(205.0)), []);
+    }
+    let words = "the image has 1 grey level beside unknown: it was thresholded before it was saved";
+    assert_eq!(Warning::TwoGreys { levels: 1 }.to_string(), words);
 }
 
 #[test]

@@ -90,7 +90,8 @@ fn greys_that_often_mean_unknown_are_spoken_of_in_probability_mode() {
     let folder = Folder::new();
     let warnings_of = |max: u16, grey: u16, count: usize, unknown: Option<u16>| {
         let mut samples = vec![grey; count];
-        samples.resize(20, 0);
+        // Others, of which no two are one grey of a state.
+        samples.extend([0, max / 9, max - max / 9].into_iter().cycle().take(20 - count));
         folder.write("image.pgm", pgm(5, 4, max, &samples));
         let options =
             Options { mode: Some(Mode::Probability), unknown: unknown.map(f64::from), ..Options::default() };

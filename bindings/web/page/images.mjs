@@ -57,13 +57,16 @@ export class Images {
     }
   }
 
-  /** Offers to describe the images that no description names; `refuse` hears of those given now that cannot be read. */
-  async offer(files, given, refuse) {
-    const described = new Set(this.#named.values());
+  /**
+   * Offers to describe the images that no file describes, and that the form did not describe so that they are among the
+   * measured; `refuse` hears of those given now that cannot be read.
+   */
+  async offer(files, given, measured, refuse) {
+    const described = new Set([...this.#named].filter(([name]) => !this.#made.has(name) || measured.has(name)).map(([, image]) => image));
     const alone = [...files.keys()].filter((name) => isImage(name) && !described.has(name));
     const list = (more) => this.#client.ask({ ask: "files", files: [...files.values(), ...more] });
     for (const name of alone.filter((name) => given.includes(name))) {
-      const tried = this.#file(name, DEFAULTS);
+      const tried = this.#file(name, "tried", DEFAULTS);
       try {
         await list([tried]);
         await this.#client.ask({ ask: "check", name: tried.name });
@@ -86,13 +89,13 @@ export class Images {
     const form = Object.fromEntries(new FormData(element("describe")));
     // The files' own modes are three; the fourth is asked of their reader.
     const isProbability = form.mode === "probability";
-    const file = this.#file(form.image, { ...form, mode: isProbability ? "trinary" : form.mode });
+    const file = this.#file(form.image, "described", { ...form, mode: isProbability ? "trinary" : form.mode });
     this.#made.set(file.name, { image: form.image, ...(isProbability ? { mode: form.mode, unknown: form.unknown?.trim() ?? "" } : {}) });
     return file;
   }
 
-  #file(image, values) {
+  #file(image, what, values) {
     const lines = Object.keys(DEFAULTS).map((name) => `${name}: ${values[name]}`);
-    return new File([`image: ${image}\norigin: [0, 0, 0]\n${lines.join("\n")}\n`], `${image}.described.yaml`);
+    return new File([`image: ${image}\norigin: [0, 0, 0]\n${lines.join("\n")}\n`], `${image}.${what}.yaml`);
   }
 }

@@ -72,7 +72,9 @@ export class Maps {
       if (given.includes(name) && this.#files.has(image) && !given.includes(image)) this.#earlier.add(name);
       await this.#measure(name);
     }
-    const offered = await this.#images.offer(this.#files, given, (why) => this.#refuse(why));
+    if (given.some(isImage)) this.#busy("reading images");
+    const offered = await this.#images.offer(this.#files, given, this.#rows, (why) => this.#refuse(why));
+    this.#idle();
     for (const name of folders) this.#refuse(`${name}: is a directory; allowed are files`);
     const measured = maps.filter((name) => this.#rows.has(name));
     await this.#show(measured.includes(this.#chosen) ? this.#chosen : measured[0]);
@@ -371,7 +373,7 @@ export class Maps {
     element("worst-side").addEventListener("change", () => this.#then(() => this.#opened?.cells && this.#worst.find()));
     element("save-json").addEventListener("click", () => this.#export("json"));
     element("save-csv").addEventListener("click", () => this.#export("csv"));
-    element("save-worst").addEventListener("click", () => save(`${this.#rows.get(this.#chosen)[0].map}.worst.csv`, new Blob([this.#worst.csv()], { type: "text/csv" })));
+    element("save-worst").addEventListener("click", () => save(`${this.#rows.get(this.#chosen)[0].map}.worst.csv`, new Blob([this.#worst.csv(this.#opened.resolution_m ? "m" : "cells")], { type: "text/csv" })));
     element("save-png").addEventListener("click", () => this.#exportPicture());
   }
 

@@ -38,6 +38,7 @@ export class Worst {
     element("worst").hidden = false;
     element("worst-region").disabled = !square;
     element("worst-cell").disabled = !cells.length;
+    element("save-worst").disabled = !cells.length;
     element("worst-none").hidden = cells.length > 0;
     element("worst-table").hidden = !cells.length;
     const listed = equal > cells.length ? `The first ${cells.length} of ${counted(equal, "cell")} with the largest entropy` : counted(cells.length, "worst cell");
@@ -69,15 +70,15 @@ export class Worst {
     return at ? `; worst cell ${at} of ${this.#cells.length}${more}` : "";
   }
 
-  /** Returns the region and the listed cells as CSV, with the digits of their floats. */
-  csv() {
+  /** Returns the region and the listed cells as CSV, with the digits of their floats; their middles are in this unit. */
+  csv(unit) {
     const lines = [...(this.#square ? [["region", this.#square]] : []), ...this.#cells.map((cell) => ["cell", cell])].map(([what, of]) => {
       const [column, row, width, height] = this.#of(of);
       const isCell = what === "cell";
       const numbers = isCell ? [of.p, of.entropy, of.information, 1] : ["", of.entropy, of.mean_information, of.observed];
       return [what, column, row, width, height, ...this.#middle([column, row, width, height]), ...numbers].join(",");
     });
-    return ["what,column,row,width,height,x,y,p,entropy_bits,information_per_cell,observed", ...lines, ""].join("\n");
+    return [`what,column,row,width,height,x_${unit},y_${unit},p,entropy_bits,information_per_cell,observed`, ...lines, ""].join("\n");
   }
 
   /** Goes to the worst region. */

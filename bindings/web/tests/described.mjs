@@ -28,6 +28,24 @@ await test("an image that is described in the form is neither accused nor called
   assert.deepEqual(await tab.locator("#rows th").allTextContents(), ["floor.pgm, described here", "floor.yaml"]);
 });
 
+await test("a description that is refused can be mended in the form", async (tab) => {
+  await idle(tab);
+  await drop(tab, [pgm("mended.pgm", [0, 100, 254])]);
+  await tab.locator("#describe").waitFor();
+  await tab.selectOption("#describe [name=mode]", "scale");
+  await tab.fill("#describe [name=resolution]", "0,05");
+  await tab.click("#describe button");
+  await tab.locator("#errors p").waitFor();
+  await tab.waitForTimeout(300);
+  assert.ok(await tab.locator("#describe").isVisible());
+  await tab.fill("#describe [name=resolution]", "0.05");
+  await tab.click("#describe button");
+  await shows(tab, "mended.pgm, described here");
+  await idle(tab);
+  assert.deepEqual(await texts(tab, "#errors"), []);
+  assert.equal(await tab.locator("#describe").isVisible(), false);
+});
+
 await test("a map that is meaningful gives no reason", async (tab) => {
   await idle(tab);
   assert.equal(await tab.locator("#meaningless").isVisible(), false);

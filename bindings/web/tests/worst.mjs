@@ -69,6 +69,7 @@ await test("the worst cells and the worst region are found and gone to", async (
   // The file holds them with all digits.
   const [head, region, ...rows] = (await saved(tab, "#save-worst")).toString().trim().split("\n").map((line) => line.split(","));
   assert.equal(head.length, rows[0].length);
+  assert.deepEqual(head.slice(5, 7), ["x_m", "y_m"]);
   assert.deepEqual(rows.map(([what, column, row, , , , , p]) => [what, Number(column), Number(row), Math.fround(p)]),
     cells.map(({ column, row, p }) => ["cell", column, row, p]));
   assert.deepEqual(region.slice(0, 5), ["region", square.column, square.row, SIDE, SIDE].map(String));
@@ -86,7 +87,7 @@ await test("a map that is certain has no worst cells", async (tab) => {
   await idle(tab);
   assert.ok(await tab.locator("#worst-none").isVisible());
   assert.equal(await tab.locator("#worst-table").isVisible(), false);
-  for (const id of ["#worst-cell", "#worst-region"]) assert.ok(await tab.locator(id).isDisabled());
+  for (const id of ["#worst-cell", "#worst-region", "#save-worst"]) assert.ok(await tab.locator(id).isDisabled());
 });
 
 await test("the buttons zoom about the marked cell", async (tab) => {

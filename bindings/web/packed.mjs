@@ -1,7 +1,7 @@
 // Packs what the page holds, for page/unzipped.mjs.
 import { spawnSync } from "node:child_process";
 import { gzipSync } from "node:zlib";
-import { DIGITS } from "./page/unzipped.mjs";
+import { DIGITS, checksum } from "./page/unzipped.mjs";
 
 /** Returns bytes in LZMA, whose head tells their number; `null` where there is no xz. */
 export function inLzma(bytes) {
@@ -15,7 +15,7 @@ export function inLzma(bytes) {
 /** Returns bytes in gzip, which is larger by a third. */
 export const inGzip = (bytes) => gzipSync(bytes, { level: 9 });
 
-/** Returns packed bytes as digits, after the number of bytes that these hold too many. */
+/** Returns packed bytes as digits, after a checksum and the number of bytes that these hold too many. */
 export function inDigits(zipped) {
   let [text, bits, held] = ["", 0, 0];
   const put = () => {
@@ -28,7 +28,8 @@ export function inDigits(zipped) {
     if (held >= 13) put();
   }
   if (held > 0) put();
-  return Math.floor((text.length / 2) * 13 / 8) - zipped.length + text;
+  text = Math.floor((text.length / 2) * 13 / 8) - zipped.length + text;
+  return checksum(text) + text;
 }
 
 /** Packs bytes as small as can be had. */

@@ -22,7 +22,7 @@ const joined = (names) => {
     .join("\n");
 };
 
-const main = joined(["parts", "lzma", "unzipped", "client", "chart", "picture", "heatmap", "words", "summary", "worst", "maps", "room", "cell", "main"]);
+const main = joined(["parts", "lzma", "unzipped", "client", "chart", "picture", "heatmap", "images", "words", "summary", "worst", "maps", "room", "cell", "main"]);
 const worker = joined(["module", "lzma", "unzipped", "worker"]);
 const sample = ["room.yaml", "room.pgm"].map((name) => ({
   name,

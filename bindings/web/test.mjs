@@ -267,5 +267,7 @@ for (const colorScheme of ["light", "dark"]) {
 await import("./tests/packed.mjs");
 await import("./tests/worst.mjs");
 await import("./tests/chosen.mjs");
+await import("./tests/replaced.mjs");
+await import("./tests/described.mjs");
 await import("./tests/shown.mjs");
 await finish();

@@ -3,9 +3,10 @@ import { element } from "./parts.mjs";
 
 /** A request that was refused, or that stopped the module. */
 class Refusal extends Error {
-  constructor({ message, missingImage }) {
+  constructor({ message, missingImage, field }) {
     super(message);
     this.missingImage = missingImage;
+    this.field = field;
   }
 }
 
@@ -67,12 +68,18 @@ export class Client {
 
   /** Answers with bytes. */
   async ask(request) {
+    const isReplaced = ({ ask, name }) => (request.ask === "forget" ? ask === "measure" : ask === request.ask && name === request.name);
+    // Each stays in its place; what is refused or stopped leaves none, as in the module.
+    const before = this.#effects.findIndex(isReplaced);
+    const others = (effects) => effects.filter((effect) => !isReplaced(effect));
+    const after = this.#effects.slice(before < 0 ? this.#effects.length : before + 1);
+    this.#effects = others(this.#effects);
+    if (request.ask === "files") this.#effects.unshift(request);
     const bytes = await this.#send({ request });
-    const replaced = { files: ["files"], forget: ["measure"] }[request.ask] ?? [];
-    this.#effects = this.#effects.filter(({ ask }) => !replaced.includes(ask));
-    if (["files", "measure"].includes(request.ask)) this.#effects.push(request);
-    // The files come first.
-    this.#effects.sort((a, b) => (a.ask === "measure") - (b.ask === "measure"));
+    if (request.ask === "measure") {
+      const at = this.#effects.findIndex((effect) => after.includes(effect));
+      this.#effects.splice(at < 0 ? this.#effects.length : at, 0, request);
+    }
     return bytes;
   }
 

@@ -90,10 +90,12 @@ export class HeatMap {
 
   zoom(by, at = null) {
     const { x, y, zoom } = this.#view;
-    const next = Math.min(LARGEST, Math.max(this.#fitting(), zoom * by));
+    const fitting = this.#fitting();
+    // In and out again is all of it, whatever was rounded.
+    const next = zoom * by < fitting * (1 + 1e-9) ? fitting : Math.min(LARGEST, zoom * by);
     const anchor = at ?? [x, y];
     const kept = 1 - zoom / next;
-    this.#isFitted = next === this.#fitting();
+    this.#isFitted = next === fitting;
     this.#view = { x: x + (anchor[0] - x) * kept, y: y + (anchor[1] - y) * kept, zoom: next };
     this.#moved();
   }
@@ -241,7 +243,8 @@ export class HeatMap {
     canvas.addEventListener("pointerdown", (event) => {
       canvas.setPointerCapture(event.pointerId);
       held.set(event.pointerId, event);
-      pressed = event;
+      // Two fingers zoom: where they part no cell is chosen.
+      pressed = held.size === 1 ? event : null;
     });
     canvas.addEventListener("pointermove", (event) => {
       if (!this.#size[0]) return;
@@ -266,13 +269,16 @@ export class HeatMap {
         const moved = Math.hypot(event.clientX - pressed?.clientX, event.clientY - pressed?.clientY);
         const cell = this.#under(event);
         if (end === "pointerup" && this.#size[0] && moved < 5 && cell) this.#choose(cell);
+        if (!held.size) pressed = null;
       });
     }
     canvas.addEventListener("pointerleave", () => this.#size[0] && this.#point(null));
     canvas.addEventListener("wheel", (event) => {
-      if (!this.#size[0]) return;
-      event.preventDefault();
+      if (!this.#size[0] || !(event.ctrlKey || document.activeElement === canvas)) return;
+      const before = this.#view.zoom;
       this.zoom(2 ** (-event.deltaY / 240), this.#place(event));
+      // Where there is nothing more to zoom the page scrolls; with Ctrl it would itself be enlarged.
+      if (event.ctrlKey || this.#view.zoom !== before) event.preventDefault();
     }, { passive: false });
     canvas.addEventListener("keydown", (event) => this.#key(event));
   }

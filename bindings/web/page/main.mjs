@@ -6,6 +6,7 @@ import { Room } from "./room.mjs";
 import { element } from "./parts.mjs";
 import { unzipped } from "./unzipped.mjs";
 
+element("unstarted").remove();
 const tabs = [...document.querySelectorAll('[role="tab"]')];
 
 new Maps(new Client());
@@ -34,5 +35,6 @@ for (const tab of tabs) {
 }
 
 element("licences").addEventListener("toggle", async () => {
-  element("licences-text").textContent ||= await unzipped(element("third-party").textContent).text();
+  const text = unzipped(element("third-party").textContent).text();
+  element("licences-text").textContent ||= await text.catch(({ message }) => message);
 });

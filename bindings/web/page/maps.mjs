@@ -2,18 +2,19 @@
 import { Client } from "./client.mjs";
 import { chart } from "./chart.mjs";
 import { HeatMap, inWords } from "./heatmap.mjs";
+import { Images, isImage } from "./images.mjs";
 import { counted, element, fixed, grouped, held, make, rounded, save } from "./parts.mjs";
 import { drawnPicture } from "./picture.mjs";
 import { showSummary, sizeOf } from "./summary.mjs";
-import { onPage } from "./words.mjs";
+import { BAG, ofBag, onPage, refusalOnPage } from "./words.mjs";
 import { Worst } from "./worst.mjs";
 
-const IMAGE = /\.(pgm|png|bmp|ppm|pbm|pnm|jpe?g|tiff?|gif|webp|tga)$/i;
 const MAP = /\.(ya?ml|np[yz]|gridmap(\.gz)?|ot|bt|pbstream)$/i;
 
 export class Maps {
   #client;
   #files = new Map();
+  #images;
   /** The rows of each map by its file's name, in the order in which they were measured. */
   #rows = new Map();
   #chosen = null;
@@ -27,17 +28,18 @@ export class Maps {
   /** @param {Client} client */
   constructor(client) {
     this.#client = client;
+    this.#images = new Images(client);
     this.#heatMap = new HeatMap(element("heat-map"), client, "map", (cell, column, row) => this.#tellCell(cell, column, row),
       { w: () => this.#worst.toNext(), r: () => this.#worst.toRegion() });
-    this.#worst = new Worst(client, this.#heatMap, (cells) => this.#place(cells));
+    this.#worst = new Worst(client, this.#heatMap, (cells) => this.#place(cells), (cells) => this.#middle(cells));
     this.#listen();
     const inside = held("maps");
     this.add(inside.length ? inside : held("sample"), !inside.length);
   }
 
-  /** Adds files, and measures the maps among them. A sample goes when something else comes. */
-  add(files, isSample = false) {
-    return this.#then(() => this.#add(files, isSample));
+  /** Adds files, and measures the maps among them. A sample goes when something else comes; folders are refused. */
+  add(files, isSample = false, folders = []) {
+    return this.#then(() => files.length + folders.length && this.#add(files, isSample, folders));
   }
 
   /** Does something when all before is done. */
@@ -48,42 +50,59 @@ export class Maps {
 
   #isSample = false;
 
-  async #add(files, isSample) {
-    if (this.#isSample) await this.#forget();
-    this.#isSample = isSample;
+  async #add(files, isSample, folders) {
+    if (files.length) {
+      if (this.#isSample) await this.#forget();
+      this.#isSample = isSample;
+    }
+    for (const id of ["errors", "notices"]) element(id).replaceChildren();
     const given = files.map(({ name }) => name);
-    const replaced = new Set(given.filter((name) => this.#files.has(name)));
+    const others = files.filter((file) => this.#isAnother(file)).map(({ name }) => name);
     for (const file of files) this.#files.set(file.name, file);
     await this.#list();
-    await this.#learnImages();
-    for (const id of ["errors", "notices"]) element(id).replaceChildren();
+    await this.#images.learn(this.#files);
     const twice = given.find((name, k) => given.indexOf(name) !== k);
     if (twice) this.#refuse(`${twice}: two files have this name, and the last is taken; give one of them another name`);
-    // A file whose name was there takes its place: what was measured of the old one is measured again.
-    const again = [...this.#rows.keys()].filter((name) => replaced.has(name) || replaced.has(this.#images.get(name)));
-    if (again.length) {
-      await this.#client.ask({ ask: "forget" });
-      for (const name of again) this.#rows.delete(name);
-      if (again.includes(this.#chosen)) this.#hide();
-    }
-    // An image that came may be the one that a description waits for.
-    const waiting = [...this.#missing.keys()];
-    const maps = [...new Set([...given.filter((name) => !IMAGE.test(name)), ...waiting, ...again])];
+    // What waits for an image may have it now; and a file whose name was there takes its place, in what is measured, too.
+    const maps = [...new Set([...given.filter((name) => !isImage(name)), ...this.#missing.keys(), ...this.#images.describing(given)])];
+    if (maps.includes(this.#chosen)) this.#hide();
     for (const name of maps) {
       this.#earlier.delete(name);
-      const image = this.#images.get(name);
+      const image = this.#images.of(name);
       if (given.includes(name) && this.#files.has(image) && !given.includes(image)) this.#earlier.add(name);
       await this.#measure(name);
     }
-    this.#offerDescriptions();
+    if (given.some(isImage)) this.#busy("reading images");
+    const offered = await this.#images.offer(this.#files, given, this.#rows, (why) => this.#refuse(why));
+    this.#idle();
+    for (const name of folders) this.#refuse(`${name}: is a directory; allowed are files`);
     const measured = maps.filter((name) => this.#rows.has(name));
     await this.#show(measured.includes(this.#chosen) ? this.#chosen : measured[0]);
     if (maps.length > 1) this.#tell(`${measured.length === maps.length ? "" : `${measured.length} of `}${counted(maps.length, "map")} measured`);
+    else if (measured.length && !isSample) this.#tell(`measured: ${this.#title(measured[0])}`);
     for (const name of measured.filter((name) => this.#earlier.has(name))) {
-      this.#notice(`${name} came alone: its image is the file ${this.#images.get(name)} that was chosen earlier. Choose both if that is another one.`);
+      this.#notice(`${name} came alone: its image is the file ${this.#images.of(name)} that was chosen earlier. Choose both if that is another one.`);
     }
-    const isOld = !measured.length && this.#rows.has(this.#chosen) && element("errors").hasChildNodes();
-    if (isOld) this.#notice(`What is shown below is still ${this.#chosen}, chosen earlier.`);
+    if (others.length) this.#notice(`In the place of another file of the same name, which was chosen earlier: ${others.join(", ")}.`);
+    if (!measured.length && this.#rows.has(this.#chosen)) {
+      const shown = this.#isSample ? "the sample" : `${this.#title(this.#chosen)}, chosen earlier`;
+      const next = offered.some((name) => given.includes(name)) ? " An image is measured when it is described above." : "";
+      this.#notice(`What is shown below is still ${shown}.${next}`);
+    }
+    this.#table();
+  }
+
+  /** Tells whether a file is another than the one of its name that was chosen earlier. */
+  #isAnother({ name, size, lastModified }) {
+    const before = this.#files.get(name);
+    return before && !this.#images.made(name) && (before.size !== size || before.lastModified !== lastModified);
+  }
+
+  /** Returns what the map of a file is called; what the form describes has no file of its own. */
+  #title(name, row = this.#rows.get(name)[0]) {
+    const made = this.#images.made(name);
+    if (made) return `${made.image}, described here`;
+    return this.#isSample ? `A sample, not yours: ${row.map}` : row.map;
   }
 
   /** Shows a map that was measured now; without one, that which was shown before, or the first. */
@@ -107,22 +126,22 @@ export class Maps {
     this.#files.clear();
     this.#rows.clear();
     this.#missing.clear();
-    this.#images.clear();
+    this.#images.forget();
     this.#earlier.clear();
     element("notices").replaceChildren();
     this.#chosen = null;
     this.#hide();
     await this.#client.ask({ ask: "forget" });
     this.#table();
-    this.#offerDescriptions();
   }
 
-  #reading() {
+  #reading(name) {
     const form = new FormData(element("reading"));
     const text = (name) => form.get(name)?.toString().trim() ?? "";
     return {
       semantics: text("semantics"), mode: text("mode"), unknown: text("unknown"), encoding: text("encoding"),
       resolution: text("resolution"), submaps: form.get("submaps") === "on",
+      ...this.#images.made(name),
     };
   }
 
@@ -132,14 +151,21 @@ export class Maps {
   async #measure(name) {
     this.#missing.delete(name);
     try {
+      if (BAG.test(name)) throw new Error(ofBag(name));
       this.#busy(`measuring ${name}`);
-      const text = await this.#client.text({ ask: "measure", name, reading: this.#reading() });
+      const text = await this.#client.text({ ask: "measure", name, reading: this.#reading(name) });
       this.#rows.set(name, JSON.parse(text));
-      this.#table();
     } catch (error) {
+      // As in the module, nothing is left of what was measured under this name before.
+      this.#rows.delete(name);
+      if (name === this.#chosen) {
+        this.#chosen = null;
+        this.#hide();
+      }
       if (error.missingImage) this.#missing.set(name, error.missingImage);
       this.#refuse(error.message, error.missingImage);
     } finally {
+      this.#table();
       this.#idle();
     }
   }
@@ -150,10 +176,9 @@ export class Maps {
       const [names, chosen] = [[...this.#rows.keys()], this.#chosen];
       await this.#client.ask({ ask: "forget" });
       this.#rows.clear();
+      this.#hide();
       for (const id of ["errors", "notices"]) element(id).replaceChildren();
       for (const name of [...names, ...this.#refused].filter((name, k, all) => all.indexOf(name) === k)) await this.#measure(name);
-      this.#table();
-      this.#hide();
       const next = this.#rows.has(chosen) ? chosen : [...this.#rows.keys()][0];
       if (next) await this.#choose(next);
     });
@@ -165,34 +190,7 @@ export class Maps {
 
   #refuse(message, missingImage = null) {
     const hint = missingImage ? `. Drop ${missingImage.split(/[\\/]/).pop()} here, too.` : "";
-    element("errors").append(make("p", {}, onPage(message), hint));
-  }
-
-  /** Offers to describe the images that no description names. */
-  #offerDescriptions() {
-    const described = new Set(this.#images.values());
-    const images = [...this.#files.keys()].filter((name) => IMAGE.test(name) && !described.has(name));
-    element("describe").hidden = !images.length;
-    element("described").replaceChildren(...images.map((name) => make("option", {}, name)));
-  }
-
-  /** The image that each description names, by the text of small files: what else is in them their reader tells. */
-  #images = new Map();
-
-  async #learnImages() {
-    for (const [name, file] of this.#files) {
-      if (!/\.ya?ml$/i.test(name) || file.size > 1 << 20) continue;
-      const named = /^\s*image\s*:\s*["']?([^"'#\n\r]*)/m.exec(await file.text())?.[1]?.trim();
-      if (named) this.#images.set(name, named.split(/[\\/]/).pop());
-    }
-  }
-
-  #describe() {
-    const form = new FormData(element("describe"));
-    const image = form.get("image");
-    const lines = ["resolution", "occupied_thresh", "free_thresh", "mode", "negate"].map((name) => `${name}: ${form.get(name)}`);
-    const text = `image: ${image}\norigin: [0, 0, 0]\n${lines.join("\n")}\n`;
-    return this.add([new File([text], image.replace(/\.[^.]*$/, ".yaml"))]);
+    element("errors").append(make("p", {}, refusalOnPage(message), hint));
   }
 
   #busy(text) {
@@ -217,12 +215,13 @@ export class Maps {
     const rows = [...this.#rows].flatMap(([name, rows]) => rows.map((row) => this.#row(name, row)));
     element("rows").replaceChildren(...rows);
     element("several").hidden = rows.length < 2;
-    element("exports").hidden = !rows.length;
+    element("exports").hidden = !this.#files.size;
+    for (const id of ["save-json", "save-csv"]) element(id).disabled = !rows.length;
   }
 
   #row(name, row) {
     const cell = (label, ...content) => make("td", { class: "number", "data-label": label }, ...content);
-    const choose = make("button", { type: "button", "aria-pressed": String(name === this.#chosen), onclick: () => this.#queueChoice(name) }, row.map);
+    const choose = make("button", { type: "button", "aria-pressed": String(name === this.#chosen), onclick: () => this.#queueChoice(name) }, this.#title(name, row));
     return make("tr", {},
       make("th", { scope: "row" }, choose),
       cell("cells", sizeOf(row)),
@@ -239,6 +238,7 @@ export class Maps {
   }
 
   async #choose(name) {
+    if (!this.#rows.has(name)) return;
     this.#chosen = name;
     this.#hide();
     this.#table();
@@ -246,7 +246,7 @@ export class Maps {
     const turn = ++this.#turn;
     try {
       this.#busy(`looking at the cells of ${name}`);
-      this.#opened = await this.#client.json({ ask: "open", name, reading: this.#reading() });
+      this.#opened = await this.#client.json({ ask: "open", name, reading: this.#reading(name) });
       if (turn !== this.#turn) return;
       if (this.#opened.cells && this.#opened.width && this.#opened.height) {
         const { width, height } = this.#opened;
@@ -254,26 +254,30 @@ export class Maps {
         element("save-png").hidden = false;
         element("heat-map").style.setProperty("--ratio", Math.min(3, Math.max(0.6, width / height)));
         this.#heatMap.show(width, height);
-        element("percent").hidden = !this.#opened.percent;
+        element("percent").hidden = !(this.#opened.percent && /\.ya?ml$/i.test(name));
         this.#tell(`finding the worst cells of ${name}`);
         await this.#worst.find();
       }
       this.#tell(`averaging the cells of ${name}`);
       this.#sweep(await this.#client.json({ ask: "sweep" }));
     } catch (error) {
-      element("no-picture").textContent = `No picture: ${onPage(error.message)}.`;
+      // The module may hold no cells any more.
+      this.#hidePicture();
+      element("no-picture").textContent = `No picture: ${refusalOnPage(error.message)}.`;
     } finally {
       this.#idle();
     }
   }
 
-  #hide() {
+  #hidePicture() {
     this.#opened = null;
     this.#heatMap.hide();
     this.#worst.hide();
-    element("picture").hidden = true;
-    element("save-png").hidden = true;
-    element("sweep").hidden = true;
+    for (const id of ["picture", "save-png", "sweep"]) element(id).hidden = true;
+  }
+
+  #hide() {
+    this.#hidePicture();
     element("summary").hidden = true;
     element("no-picture").textContent = "";
     element("cell-told").textContent = "Point at a cell, or move over the map with the arrow keys.";
@@ -281,9 +285,9 @@ export class Maps {
 
   #summary(name) {
     const row = this.#rows.get(name)[0];
-    const image = this.#files.get(this.#images.get(name));
+    const image = this.#files.get(this.#images.of(name));
     const told = image && `${image.name}, ${counted(image.size, "byte")}${this.#earlier.has(name) ? ", chosen earlier" : ""}`;
-    showSummary(row, this.#isSample ? `${row.map}, a sample` : row.map, told);
+    showSummary(row, this.#title(name), told);
   }
 
   #sweep({ rows }) {
@@ -304,18 +308,23 @@ export class Maps {
   }
 
   #tellCell(cell, column, row) {
-    element("cell-told").textContent = `Column ${column}, row ${row}, at ${this.#place([column, row, 1, 1])}: ${inWords(cell)}`;
+    element("cell-told").textContent = `Column ${column}, row ${row}, at ${this.#place([column, row, 1, 1])}: ${inWords(cell)}${this.#worst.rank(column, row)}`;
   }
 
   /** Returns where the middle of a rectangle of cells is, in metres where the size of a cell is known. */
-  #place([column, row, width, height]) {
+  #place(cells) {
+    const [x, y] = this.#middle(cells).map((at) => at.toFixed(3));
+    return this.#opened?.resolution_m ? `x ${x}, y ${y} m` : `${this.#middle(cells).join(", ")} cells`;
+  }
+
+  #middle([column, row, width, height]) {
     const { resolution_m: side, x, y, yaw } = this.#opened ?? {};
     const middle = [column + width / 2, row + height / 2];
-    if (!side) return `${middle.join(", ")} cells`;
+    if (!side) return middle;
     const [right, up] = middle.map((at) => at * side);
     // Turned about the corner of the map, as its description says.
     const [cos, sin] = [Math.cos(yaw), Math.sin(yaw)];
-    return `x ${(x + cos * right - sin * up).toFixed(3)}, y ${(y + sin * right + cos * up).toFixed(3)} m`;
+    return [x + cos * right - sin * up, y + sin * right + cos * up];
   }
 
   async #export(format) {
@@ -325,7 +334,7 @@ export class Maps {
 
   async #exportPicture() {
     const row = this.#rows.get(this.#chosen)[0];
-    const titles = [row.map, `mean information: ${fixed(row.mean_information, 6)} bits per observed cell${row.meaningful ? "" : " (not meaningful)"}`];
+    const titles = [this.#title(this.#chosen), `mean information: ${fixed(row.mean_information, 6)} bits per observed cell${row.meaningful ? "" : " (not meaningful)"}`];
     save(`${row.map}.png`, await drawnPicture(this.#heatMap.picture(), titles, await this.#client.ask({ ask: "colours" })));
   }
 
@@ -351,7 +360,8 @@ export class Maps {
     element("reading").addEventListener("submit", (event) => event.preventDefault());
     element("describe").addEventListener("submit", (event) => {
       event.preventDefault();
-      this.#describe();
+      const made = this.#images.describe();
+      this.add([this.#files.get(this.#images.made(made.name).image), made]);
     });
     element("stop").addEventListener("click", () => this.#client.stop());
     element("clear").addEventListener("click", () => {
@@ -363,14 +373,13 @@ export class Maps {
     element("worst-side").addEventListener("change", () => this.#then(() => this.#opened?.cells && this.#worst.find()));
     element("save-json").addEventListener("click", () => this.#export("json"));
     element("save-csv").addEventListener("click", () => this.#export("csv"));
+    element("save-worst").addEventListener("click", () => save(`${this.#rows.get(this.#chosen)[0].map}.worst.csv`, new Blob([this.#worst.csv(this.#opened.resolution_m ? "m" : "cells")], { type: "text/csv" })));
     element("save-png").addEventListener("click", () => this.#exportPicture());
   }
 
   #dropped({ items, files }) {
     const folders = [...items].map((item) => item.webkitGetAsEntry?.()).filter((entry) => entry?.isDirectory);
     const names = new Set(folders.map(({ name }) => name));
-    this.add([...files].filter(({ name }) => !names.has(name))).then(() => {
-      for (const name of names) this.#refuse(`${name}: is a directory; allowed are files`);
-    });
+    this.add([...files].filter(({ name }) => !names.has(name)), false, [...names]);
   }
 }

@@ -2,9 +2,10 @@
 
 /** A request that was refused: its message is one line. */
 export class Refused extends Error {
-  constructor({ message, missing_image }) {
+  constructor({ message, missing_image, field }) {
     super(message);
     this.missingImage = missing_image;
+    this.field = field;
   }
 }
 

@@ -11,6 +11,7 @@ export class Room {
   #draw = latest(() => this.#compute());
   /** What the numbers that are shown are of, once there are some. */
   #shown = "";
+  #isComputing = false;
 
   constructor(client) {
     this.#client = client;
@@ -40,11 +41,24 @@ export class Room {
     this.#changed();
   }
 
-  /** Marks what is shown as that of other values, and computes anew. */
+  /** Computes anew; until then what is shown is that of other values. */
   #changed() {
-    element("room-result").setAttribute("aria-busy", "true");
-    element("room-shown").textContent = this.#shown ? `Computing; below is still ${this.#shown}.` : "Computing.";
+    this.#isComputing = true;
+    this.#say();
     this.#draw();
+  }
+
+  /** Says what is shown, and whether it is of what the fields say. */
+  #say() {
+    const refused = element("room-error").textContent !== "";
+    const isStale = this.#isComputing || refused;
+    const result = element("room-result");
+    result.setAttribute("aria-busy", String(this.#isComputing));
+    result.toggleAttribute("data-stale", isStale);
+    const computing = this.#isComputing ? "Computing" : "";
+    const shown = this.#shown && (isStale ? `${computing ? "b" : "B"}elow is still ${this.#shown}` : `For ${this.#shown}`);
+    const words = [computing, shown].filter((part) => part).join("; ");
+    element("room-shown").textContent = words && `${words}.`;
   }
 
   async #compute() {
@@ -52,20 +66,24 @@ export class Room {
     const asked = fields.map(({ value }) => value);
     const [range, sigma, resolution] = asked;
     const isNewest = () => fields.every(({ value }, k) => value === asked[k]);
+    let refused = null;
     try {
       const room = await this.#client.json({ ask: "room", range, sigma, resolution });
       this.#tell(room);
       this.#shown = `z ${room.range_m} m, σ ${room.sigma_m} m, cells of ${Number(resolution) || resolution} m`;
-      if (!isNewest()) return;
-      element("room-error").textContent = "";
-      element("room-shown").textContent = `For ${this.#shown}.`;
-      element("room-result").setAttribute("aria-busy", "false");
-      for (const field of fields) field.removeAttribute("aria-invalid");
     } catch (error) {
-      element("room-error").textContent = error.message;
-      element("room-shown").textContent = this.#shown && `Below is still ${this.#shown}.`;
-      for (const field of fields) field.setAttribute("aria-invalid", String(!(Number(field.value) > 0)));
+      refused = error;
     }
+    // What the numbers below are of is said in any case.
+    if (isNewest()) {
+      this.#isComputing = false;
+      element("room-error").textContent = refused?.message ?? "";
+      for (const [k, field] of fields.entries()) {
+        if (refused?.field === SLIDERS[k]) field.setAttribute("aria-invalid", "true");
+        else field.removeAttribute("aria-invalid");
+      }
+    }
+    this.#say();
   }
 
   #tell(room) {

@@ -8,6 +8,9 @@ export function showSummary(row, title, image) {
   element("chosen").textContent = title;
   element("number").textContent = row.mean_information === null ? "none" : String(row.mean_information);
   element("unit").hidden = row.mean_information === null;
+  element("unit").textContent = `${row.mean_information === 1 ? "bit" : "bits"} per observed cell`;
+  // The reason is the last of the warnings.
+  element("meaningless").textContent = row.meaningful ? "" : `Not meaningful: ${onPage(row.warnings.at(-1) ?? "see the warnings")}.`;
   element("read").textContent = reading(row);
   const facts = [
     ["cells", sizeOf(row)],
@@ -34,6 +37,5 @@ export function sizeOf(row) {
 /** Returns how to read a mean information. */
 function reading(row) {
   if (row.mean_information === null) return "Nothing is observed, so there is no mean information.";
-  const scale = "From 0, which says nothing of the cells that were seen, to 1, which leaves no doubt. Unknown cells do not count.";
-  return row.meaningful ? scale : `${scale} Here it means nothing: the warnings say why.`;
+  return "From 0, which says nothing of the cells that were seen, to 1, which leaves no doubt. Unknown cells do not count.";
 }

@@ -10,14 +10,30 @@ const CONTROLS = {
   submaps: "a row for each submap",
 };
 
-/** Returns a warning or a refusal of the command with the page's controls for the options in it. */
+/** What the command says of files of other names: it reads more than the page. */
+const ALLOWED = /; allowed are \.yaml, .*\.pbstream$/;
+const READ = "; read here are .yaml, .yml, .npy, .npz, .gridmap, .gridmap.gz, .ot, .bt, .pbstream and images";
+
+/** The names of bags. */
+export const BAG = /\.(bag|bag\.active|db3|mcap)$/i;
+
+/** Returns what is said of a bag. */
+export const ofBag = (name) => `${name}: is a bag, which the command reads: meaninfo map ${name} for its last map, meaninfo bag ${name} for all its maps`;
+
+/** Returns a refusal of the command, `FILE: WHY`, in the page's words. */
+export function refusalOnPage(text) {
+  const [, file, why] = /^(.*?: )?(.*)$/s.exec(text);
+  return `${file ?? ""}${onPage(why.replace(ALLOWED, READ))}`;
+}
+
+/** Returns a warning of the command with the page's controls for the options in it. */
 export function onPage(text) {
   let isControl = false;
-  const option = /--(semantics|mode|unknown|encoding|resolution|submaps)\b(?: (nav2-humble|trinary|scale|raw|probability|percent|log-odds|mrpt|NaN|-?[\d.]*\d))?( (?=--))?/g;
+  const option = /(?<![\w-])--(semantics|mode|unknown|encoding|resolution|submaps)\b(?: (nav2-humble|trinary|scale|raw|probability|percent|log-odds|mrpt|NaN|-?[\d.]*\d))?( (?=--))?/g;
   const changed = text.replace(option, (_, name, value, another) => {
     isControl = true;
     return `“${CONTROLS[name]}”${value ? `: ${value}` : ""}${another ? ", " : ""}`;
   });
   if (isControl) return `${changed} (see “How files are read”)`;
-  return /--[a-z]/.test(text) ? `${text} (options of the command meaninfo, which this page has not)` : text;
+  return /(?<![\w-])--[a-z]/.test(text) ? `${text} (options of the command meaninfo, which this page has not)` : text;
 }

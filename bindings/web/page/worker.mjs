@@ -3,6 +3,8 @@ import { Stopped, load } from "./module.mjs";
 import { unzipped } from "./unzipped.mjs";
 
 let ask = null;
+/** Why there is no module. */
+let lacking = "this browser does not run the page's WebAssembly; a newer one does";
 let files = [];
 let bytesRead = 0;
 let bytesTold = 0;
@@ -29,17 +31,22 @@ onmessage = ({ data }) => {
 
 async function serve({ id, request, wasm: base64 }) {
   try {
-    if (base64) {
-      ask = await load(await unzipped(base64).arrayBuffer(), readPiece);
+    if (base64 !== undefined) {
+      const bytes = await unzipped(base64).arrayBuffer().catch((error) => {
+        lacking = error.message;
+        throw error;
+      });
+      ask = await load(bytes, readPiece);
       postMessage({ id, bytes: new Uint8Array() });
       return;
     }
-    if (!ask) throw new Error("this browser does not run the page's WebAssembly; a newer one does");
+    if (!ask) throw new Error(lacking);
     [current, bytesRead, bytesTold] = [id, 0, 0];
     if (request.ask === "files") ({ files } = request);
     const bytes = ask(request.ask === "files" ? listed() : request);
     postMessage({ id, bytes }, [bytes.buffer]);
   } catch (error) {
-    postMessage({ id, message: error.message, missingImage: error.missingImage ?? null, isOver: error instanceof Stopped });
+    const { message, missingImage = null, field = null } = error;
+    postMessage({ id, message, missingImage, field, isOver: error instanceof Stopped });
   }
 }

@@ -1,18 +1,21 @@
 // The worst of a map: the observed cells with the largest entropy, and the square that has the most, listed, marked and gone to.
-import { counted, element, make, rounded } from "./parts.mjs";
+import { counted, element, grouped, make, rounded } from "./parts.mjs";
 
 export class Worst {
   #client;
   #heatMap;
   #place;
+  #middle;
   #square = null;
   #cells = [];
+  /** How many cells have the largest entropy, of which some may not be listed. */
+  #equal = 0;
   /** The place in the list of the cell that was gone to last. */
   #last = -1;
 
-  /** `place([column, row, width, height])` tells where cells lie, in words. */
-  constructor(client, heatMap, place) {
-    [this.#client, this.#heatMap, this.#place] = [client, heatMap, place];
+  /** `place([column, row, width, height])` tells where cells lie, in words, `middle` in two numbers. */
+  constructor(client, heatMap, place, middle) {
+    [this.#client, this.#heatMap, this.#place, this.#middle] = [client, heatMap, place, middle];
     element("worst-region").addEventListener("click", () => this.toRegion());
     element("worst-cell").addEventListener("click", () => this.toNext());
   }
@@ -31,15 +34,15 @@ export class Worst {
   async find() {
     const { cells, equal, square } = await this.#client.json({ ask: "worst", side: this.side });
     this.hide();
-    [this.#cells, this.#square] = [cells, square ?? null];
+    [this.#cells, this.#square, this.#equal] = [cells, square ?? null, equal];
     element("worst").hidden = false;
     element("worst-region").disabled = !square;
     element("worst-cell").disabled = !cells.length;
+    element("save-worst").disabled = !cells.length;
     element("worst-none").hidden = cells.length > 0;
     element("worst-table").hidden = !cells.length;
-    const listed = `${counted(cells.length, "worst cell")}, numbers to six digits.`;
-    element("worst-caption").textContent = equal > cells.length
-      ? `${listed} ${counted(equal, "cell")} have the largest entropy: these are the first of them.` : listed;
+    const listed = equal > cells.length ? `The first ${cells.length} of ${counted(equal, "cell")} with the largest entropy` : counted(cells.length, "worst cell");
+    element("worst-caption").textContent = `${listed}, numbers to six digits.`;
     const rows = cells.map((cell, k) => make("tr", {},
       make("th", { scope: "row" }, make("button", { type: "button", onclick: () => this.#toCell(k) }, this.#place(this.#of(cell)))),
       ...["p", "entropy", "information"].map((name, at) =>
@@ -58,6 +61,24 @@ export class Worst {
     const { width, height, observed, entropy, mean_information: mean } = this.#square;
     return `${width} × ${height} cells about ${this.#place(this.#of(this.#square))}: ${counted(observed, "observed cell")}, ` +
       `sum of H ${rounded(entropy)} bits, mean information ${rounded(mean)} bits per observed cell`;
+  }
+
+  /** Returns the place of a cell in the list, in words behind others; nothing where it is not listed. */
+  rank(column, row) {
+    const at = this.#cells.findIndex((cell) => cell.column === column && cell.row === row) + 1;
+    const more = this.#equal > this.#cells.length ? ` listed, of ${grouped(this.#equal)} that are equal` : "";
+    return at ? `; worst cell ${at} of ${this.#cells.length}${more}` : "";
+  }
+
+  /** Returns the region and the listed cells as CSV, with the digits of their floats; their middles are in this unit. */
+  csv(unit) {
+    const lines = [...(this.#square ? [["region", this.#square]] : []), ...this.#cells.map((cell) => ["cell", cell])].map(([what, of]) => {
+      const [column, row, width, height] = this.#of(of);
+      const isCell = what === "cell";
+      const numbers = isCell ? [of.p, of.entropy, of.information, 1] : ["", of.entropy, of.mean_information, of.observed];
+      return [what, column, row, width, height, ...this.#middle([column, row, width, height]), ...numbers].join(",");
+    });
+    return [`what,column,row,width,height,x_${unit},y_${unit},p,entropy_bits,information_per_cell,observed`, ...lines, ""].join("\n");
   }
 
   /** Goes to the worst region. */

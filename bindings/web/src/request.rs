@@ -11,8 +11,11 @@ use serde::{Deserialize, Deserializer, de::Error};
 pub(crate) enum Request {
     /// The files from which maps may be read from now on, in the place of those before.
     Files { files: Vec<Listed> },
-    /// Measures a map and keeps its rows; answers with these, as JSON.
+    /// Measures a map and keeps its rows, in the place of those of this name; answers with these, as JSON. Of a map that is
+    /// refused no rows are kept.
     Measure { name: String, reading: Choices },
+    /// Reads a map and keeps nothing of it: whether it can be read.
+    Check { name: String },
     /// Forgets the rows of all maps.
     Forget {},
     /// All rows, as `meaninfo map` prints them.
@@ -116,12 +119,12 @@ fn encoding<'de, D: Deserializer<'de>>(from: D) -> Result<Option<ArrayEncoding>,
     word(from, &known)
 }
 
-/// Reads a decimal number or `nan`.
+/// Reads a number or `nan`; nothing is none.
 fn number<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f64>, D::Error> {
     let text = String::deserialize(from)?;
     let text = text.trim();
     if text.is_empty() {
         return Ok(None);
     }
-    text.parse().map(Some).map_err(|_| D::Error::custom(format!("{text} is not a number")))
+    crate::room::number(text).map(Some).map_err(D::Error::custom)
 }

@@ -1,17 +1,19 @@
 //! The circular room with its two limits, and one cell.
 
-use mean_information::Real;
 use mean_information::cell;
 use mean_information::limit::{Weight, closed_form};
 use mean_information::map::Grid;
 use mean_information::map::encoding::Probability;
 use mean_information::room::{CartesianRoom, PolarRoom};
 use mean_information::sensor::{GaussianSensor, InverseSensorModel};
+use mean_information::{Error, Real};
 use mean_information_report::{Number, Record, Value, hex_float};
 use std::str::FromStr;
 
 /// The most cells of a grid that is drawn.
 const MAX_CELLS: usize = 1 << 24;
+/// The name of the range in the library's refusals.
+const RANGE: &str = "range";
 /// The points of the curve of the sensor.
 const POINTS: u32 = 240;
 
@@ -21,18 +23,32 @@ pub(crate) struct Room {
     pub(crate) grid: Grid<Probability<f64>>,
 }
 
+/// Why there is no such room.
+#[derive(Debug)]
+pub(crate) struct NoRoom {
+    /// The text that is to be changed: `range`, `sigma` or `side`.
+    pub(crate) field: &'static str,
+    pub(crate) message: String,
+}
+
 impl Room {
     /// Computes the room that these texts say, all in metres.
     ///
     /// # Errors
     /// What is no length, and grids of too many cells, in words.
-    pub(crate) fn new(range: &str, sigma: &str, resolution: &str) -> Result<Self, String> {
-        let length = |name: &str, text: &str| number::<f64>(text).map_err(|why| format!("{name}: {why}"));
-        let refused = |error: mean_information::Error| error.to_string();
-        let [range, sigma, resolution] = [("range", range), ("sigma", sigma), ("cell size", resolution)]
-            .map(|(name, text)| length(name, text));
-        let (range, sigma, resolution) = (range?, sigma?, resolution?);
-        let sensor = GaussianSensor::new(range, sigma).map_err(refused)?;
+    pub(crate) fn new(range: &str, sigma: &str, resolution: &str) -> Result<Self, NoRoom> {
+        let length = |field, name: &str, text| {
+            number::<f64>(text).map_err(|why| NoRoom { field, message: format!("{name}: {why}") })
+        };
+        let range = length("range", "range", range)?;
+        let sigma = length("sigma", "sigma", sigma)?;
+        let resolution = length("side", "cell size", resolution)?;
+        let sensor = GaussianSensor::new(range, sigma).map_err(|error| {
+            let is_range = matches!(error, Error::OutOfRange { what: RANGE, .. });
+            NoRoom { field: if is_range { "range" } else { "sigma" }, message: error.to_string() }
+        })?;
+        // Of too many cells, too, the size is the cause.
+        let refused = |error: Error| NoRoom { field: "side", message: error.to_string() };
         let cartesian = CartesianRoom::new(sensor, resolution, [0.5, 0.5]).map_err(refused)?;
         let grid = cartesian.map(MAX_CELLS).map_err(refused)?;
         let polar = PolarRoom::new(sensor, resolution).and_then(|room| room.tally()).map_err(refused)?;
@@ -96,7 +112,7 @@ pub(crate) fn one_cell(text: &str) -> Result<Record, String> {
 }
 
 /// Reads a number, decimal or as a hexadecimal float.
-fn number<T: Real + FromStr>(text: &str) -> Result<T, String> {
+pub(crate) fn number<T: Real + FromStr>(text: &str) -> Result<T, String> {
     let text = text.trim();
     if text.to_ascii_lowercase().contains("0x") {
         return hex_float::parse(text).map_err(|error| error.to_string());
@@ -104,7 +120,11 @@ fn number<T: Real + FromStr>(text: &str) -> Result<T, String> {
     if text.is_empty() {
         return Err("no number is given".to_owned());
     }
-    text.parse().map_err(|_| format!("{text:?} is not a number"))
+    text.parse().map_err(|_| {
+        let point = text.replace(',', ".");
+        let hint = point.parse::<f64>().map(|_| format!("; its mark is the point: {point}"));
+        format!("{text:?} is not a number{}", hint.unwrap_or_default())
+    })
 }
 
 #[cfg(test)]
@@ -119,10 +139,17 @@ mod tests {
         assert_eq!(value("cartesian"), Some(Value::Computed(Some(Number::Double(0.6524332571256078)))));
         assert_eq!(value("polar"), Some(Value::Computed(Some(Number::Double(0.7877440140577476)))));
         assert_eq!((room.grid.width(), room.grid.height()), (448, 448));
-        for [range, sigma, side] in
-            [["0", "0.2", "0.01"], ["2", "x", "0.01"], ["2", "0.2", "1e-9"], ["", "1", "1"]]
-        {
-            assert!(Room::new(range, sigma, side).is_err(), "{range} {sigma} {side}");
+        for ([range, sigma, side], field) in [
+            (["0", "0.2", "0.01"], "range"),
+            (["", "1", "1"], "range"),
+            (["2", "x", "0.01"], "sigma"),
+            (["2", "-1", "0.01"], "sigma"),
+            (["2", "0.2", "0"], "side"),
+            (["100", "0.2", "0.04"], "side"),
+            (["2", "0.2", "1e-9"], "side"),
+        ] {
+            let refused = Room::new(range, sigma, side).err().map(|why| why.field);
+            assert_eq!(refused, Some(field), "{range} {sigma} {side}");
         }
     }
 
@@ -136,5 +163,6 @@ mod tests {
         for text in ["", "nan", "1.5", "-0.1", "0x1p+1", "one"] {
             assert!(one_cell(text).is_err(), "{text}");
         }
+        assert_eq!(one_cell("0,3").unwrap_err(), "\"0,3\" is not a number; its mark is the point: 0.3");
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::files::{Dropped, ReadPiece};
 use crate::request::{Choices, Drawn, Format, Request};
-use crate::room::{Room, of_occupancy, one_cell};
+use crate::room::{NoRoom, Room, of_occupancy, one_cell};
 use mean_information::Real;
 use mean_information::map::{Encoding, Grid};
 use mean_information_files::{Cells, Map, octree, read_map_from, with_grid};
@@ -24,7 +24,8 @@ const LISTED: usize = 10;
 pub(crate) struct Session {
     read: ReadPiece,
     files: Dropped,
-    rows: Vec<MeasuredMap>,
+    /// The rows of each map, by its file's name, in the order in which they were first measured.
+    rows: Vec<(String, Vec<MeasuredMap>)>,
     open: Open,
     room: Option<Room>,
 }
@@ -48,9 +49,13 @@ impl Session {
     ///
     /// # Errors
     /// A refusal, as JSON: its `message` is one line, and `missing_image` the image that a yaml file names and that is not
-    /// among the files.
+    /// among the files; of a room also the `field` that is to be changed.
     pub(crate) fn ask(&mut self, request: &[u8]) -> Result<Vec<u8>, String> {
-        let request = serde_json::from_slice(request).map_err(|error| refusal(&error.to_string()))?;
+        let request = serde_json::from_slice(request).map_err(|error| {
+            // The request is the page's: where it went wrong says nothing to who looks at it.
+            let words = error.to_string();
+            refusal(words.split(" at line ").next().unwrap_or_default())
+        })?;
         match request {
             Request::Squares { of, columns, rows, block } => self.squares(of, columns, rows, block),
             Request::Colours {} => Ok(colours()),
@@ -66,27 +71,36 @@ impl Session {
                 Ok(String::new())
             }
             Request::Measure { name, reading } => {
-                let rows = MeasuredMap::read_from(&self.files, Path::new(&name), &reading.reading());
-                let rows = rows.map_err(|refused| of_file(&refused))?;
+                let place = self.rows.iter().position(|(measured, _)| *measured == name);
+                let rows = self.measured(&name, &reading).inspect_err(|_| {
+                    place.map(|at| self.rows.remove(at));
+                })?;
                 let text = record::to_json(&records(&rows).into());
-                self.rows.extend(rows);
+                match place {
+                    Some(at) => self.rows[at].1 = rows,
+                    None => self.rows.push((name, rows)),
+                }
                 Ok(text)
             }
+            Request::Check { name } => self.measured(&name, &Choices::default()).map(|_| String::new()),
             Request::Forget {} => {
                 self.rows.clear();
                 self.open = Open::Nothing;
                 Ok(String::new())
             }
-            Request::Rows { format } => Ok(match format {
-                Format::Json => record::to_json(&records(&self.rows).into()),
-                Format::Csv => record::to_csv(&records(&self.rows)),
-            }),
+            Request::Rows { format } => {
+                let rows = records(self.rows.iter().flat_map(|(_, rows)| rows));
+                Ok(match format {
+                    Format::Json => record::to_json(&rows.into()),
+                    Format::Csv => record::to_csv(&rows),
+                })
+            }
             Request::Open { name, reading } => self.open(name, &reading),
             Request::Sweep {} => self.sweep(),
             Request::Cell { of, column, row } => self.cell(of, column, row),
             Request::Worst { side } => Ok(record::to_json(&Value::Record(worst_of(self.cells()?, side)))),
             Request::Room { range, sigma, resolution } => {
-                let room = Room::new(&range, &sigma, &resolution).map_err(|why| refusal(&why))?;
+                let room = Room::new(&range, &sigma, &resolution).map_err(|why| of_field(&why))?;
                 let text = record::to_json(&Value::Record(room.record.clone()));
                 self.room = Some(room);
                 Ok(text)
@@ -98,6 +112,12 @@ impl Session {
             Request::Port { line } => Ok(port::answer(line.as_bytes()).unwrap_or_default()),
             Request::Squares { .. } | Request::Colours {} => Err(refusal("a picture is no text")),
         }
+    }
+
+    /// Returns the rows of a map.
+    fn measured(&self, name: &str, reading: &Choices) -> Result<Vec<MeasuredMap>, String> {
+        let rows = MeasuredMap::read_from(&self.files, Path::new(name), &reading.reading());
+        rows.map_err(|refused| of_file(&refused))
     }
 
     fn open(&mut self, name: String, reading: &Choices) -> Result<String, String> {
@@ -239,6 +259,11 @@ fn refusal(message: &str) -> String {
     json!({ "message": message, "missing_image": null }).to_string()
 }
 
+/// Returns the refusal of a room as JSON, with the field that is to be changed.
+fn of_field(refused: &NoRoom) -> String {
+    json!({ "message": refused.message, "missing_image": null, "field": refused.field }).to_string()
+}
+
 /// Returns the refusal of a file as JSON.
 fn of_file(refused: &Refused) -> String {
     json!({ "message": refused.to_string(), "missing_image": refused.missing_image }).to_string()
@@ -306,6 +331,33 @@ mod tests {
     }
 
     #[test]
+    fn a_map_that_is_measured_again_takes_its_place_and_a_refused_one_leaves() {
+        let mut session = with_files();
+        let measure = |name, mode| json!({ "measure": { "name": name, "reading": { "mode": mode } } });
+        let rows = json!({ "rows": { "format": "json" } });
+        let first = text(&mut session, &measure("map.yaml", "scale"));
+        text(&mut session, &measure("folder/map.yaml", "scale"));
+        let again = text(&mut session, &measure("map.yaml", "raw"));
+        assert_ne!(first, again);
+        let both: serde_json::Value = serde_json::from_str(&text(&mut session, &rows)).unwrap();
+        let names: Vec<_> = both.as_array().unwrap().iter().map(|row| &row["map"]).collect();
+        assert_eq!(names, ["map.yaml", "folder/map.yaml"]);
+        assert_eq!(json!([both[0]]), serde_json::from_str::<serde_json::Value>(&again).unwrap());
+        // A check keeps nothing, and says what is wrong.
+        ask(&mut session, &json!({ "check": { "name": "map.yaml" } })).unwrap();
+        ask(&mut session, &json!({ "check": { "name": "none.yaml" } })).unwrap_err();
+        assert_eq!(text(&mut session, &rows).matches("\"map\"").count(), 2);
+        // What was refused leaves no numbers of before.
+        let cut = json!([
+            { "name": "map.yaml", "length": YAML.len() }, { "name": "map.pgm", "length": PGM.len() - 1 },
+        ]);
+        ask(&mut session, &json!({ "files": { "files": cut } })).unwrap();
+        ask(&mut session, &measure("map.yaml", "raw")).unwrap_err();
+        let left: serde_json::Value = serde_json::from_str(&text(&mut session, &rows)).unwrap();
+        assert_eq!(left, json!([both[1]]));
+    }
+
+    #[test]
     fn a_refusal_is_a_line_and_names_the_image_that_lacks() {
         let mut session = with_files();
         let measure = |name| json!({ "measure": { "name": name, "reading": { "mode": "scale" } } });
@@ -325,5 +377,10 @@ mod tests {
         ] {
             assert!(ask(&mut session, &request).is_err(), "{request}");
         }
+        let comma = json!({ "measure": { "name": "map.yaml", "reading": { "resolution": "0,05" } } });
+        let refused = ask(&mut session, &comma).unwrap_err();
+        let expected = r#""0,05" is not a number; its mark is the point: 0.05"#;
+        let refused: serde_json::Value = serde_json::from_str(&refused).unwrap();
+        assert_eq!(refused["message"], expected);
     }
 }

@@ -1,10 +1,8 @@
 // Files that are chosen one after the other: which image is taken, which result is shown, and in which words.
 import assert from "node:assert/strict";
-import { YAML, drop, idle, made, measured, npy, sparse, test } from "./harness.mjs";
+import { YAML, drop, idle, made, measured, npy, shows, sparse, test, texts } from "./harness.mjs";
 
 const pgm = (name, ...greys) => made(name, Buffer.concat([Buffer.from(`P5\n${greys.length} 1\n255\n`), Buffer.from(greys)]));
-const shows = (tab, name) => tab.waitForFunction((name) => document.getElementById("chosen").textContent === name, name);
-const texts = (tab, id) => tab.locator(`${id} p`).allTextContents();
 
 await test("an image that was here before is told of where a description comes alone", async (tab) => {
   await idle(tab);
@@ -19,11 +17,11 @@ await test("an image that was here before is told of where a description comes a
   await tab.locator("#notices p").waitFor();
   assert.match((await texts(tab, "#notices")).join(), /^two\.yaml came alone: its image is the file shared\.pgm that was chosen earlier/);
   assert.match(await tab.textContent("#facts"), /shared\.pgm, 13 bytes, chosen earlier/);
-  // Both together.
+  // Both together, and those that they replace are told of.
   await drop(tab, [second, pgm("shared.pgm", 0, 254)]);
   await tab.waitForFunction(() => !document.getElementById("facts").textContent.includes("earlier"));
   await idle(tab);
-  assert.deepEqual(await texts(tab, "#notices"), []);
+  assert.deepEqual(await texts(tab, "#notices"), ["In the place of another file of the same name, which was chosen earlier: two.yaml, shared.pgm."]);
 });
 
 await test("a map that is added is shown, and after a bad one it is said what is shown", async (tab) => {
@@ -40,7 +38,7 @@ await test("a map that is added is shown, and after a bad one it is said what is
   assert.deepEqual(await texts(tab, "#errors"), [measured("bad.npy")]);
   assert.deepEqual(await texts(tab, "#notices"), ["What is shown below is still late.npy, chosen earlier."]);
   // The next good one takes both words away.
-  await drop(tab, [npy("late.npy", 1, 2, [0.5, 0.75])]);
+  await drop(tab, [npy("later.npy", 1, 2, [0.5, 0.75])]);
   await tab.locator("#notices p").waitFor({ state: "detached" });
   assert.deepEqual(await texts(tab, "#errors"), []);
   // Of two of which one is bad, one is measured.

@@ -11,7 +11,9 @@ const TOOLS = ["playwright-core@1.65.1", "axe-core@4.14.1"];
 const root = resolve(dirname(fileURLToPath(import.meta.url)), "../../..");
 const target = join(resolve(process.env.CARGO_TARGET_DIR ?? join(root, "target")), "web");
 export const meaninfo = resolve(process.argv[2]);
-const page = pathToFileURL(resolve(process.argv[3] ?? join(target, "meaninfo.html"))).href;
+const built = resolve(process.argv[3] ?? join(target, "meaninfo.html"));
+export const source = () => readFileSync(built, "utf8");
+const page = pathToFileURL(built).href;
 
 if (!TOOLS.every((tool) => existsSync(join(target, "node_modules", tool.split("@")[0])))) {
   execFileSync("npm", ["install", "--silent", "--no-save", "--no-audit", "--no-fund", "--prefix", target, ...TOOLS]);
@@ -41,8 +43,14 @@ export const launch = (...args) => chromium.launch({
     "--disable-component-update", "--disable-sync", ...args],
 });
 export const browser = await launch();
-let passed = 0;
+let [passed, skipped] = [0, 0];
 const troubles = [];
+
+/** Tells what was not tested, and why. */
+export function skip(what) {
+  skipped += 1;
+  console.log(`skipped: ${what}`);
+}
 
 /** Opens the page anew, and runs a test on it; nothing may be asked of a network. `given` may be a function of what is given. */
 export async function test(name, run, given = {}) {
@@ -75,6 +83,8 @@ export const idle = async (tab) => {
   await tab.locator("#sweep:not([hidden]), #no-picture:not(:empty)").first().waitFor();
   await tab.locator("#progress").waitFor({ state: "hidden" });
 };
+export const shows = (tab, name) => tab.waitForFunction((name) => document.getElementById("chosen").textContent === name, name);
+export const texts = (tab, id) => tab.locator(`${id} p`).allTextContents();
 export const saved = async (tab, button) => {
   const [download] = await Promise.all([tab.waitForEvent("download"), tab.click(button)]);
   return readFileSync(await download.path());
@@ -101,8 +111,8 @@ export const drag = async (tab, paths) => {
   }
 };
 /** What the command says of a map in the folder of the tests' own files: its row, or a refusal without the command's name. */
-export const measured = (name) => {
-  const { status, stdout, stderr } = spawnSync(meaninfo, ["map", name, "--format", "json"], { cwd: work, encoding: "utf8" });
+export const measured = (name, ...options) => {
+  const { status, stdout, stderr } = spawnSync(meaninfo, ["map", name, ...options, "--format", "json"], { cwd: work, encoding: "utf8" });
   return status === 0 ? JSON.parse(stdout)[0] : stderr.trim().replace(/^meaninfo: /, "");
 };
 /** A file of so many bytes that takes no room on the disk: zeros behind its beginning. */
@@ -154,6 +164,6 @@ export const pointedAt = async (tab, canvas, told, [right, down]) => {
 export async function finish() {
   await browser.close();
   rmSync(work, { recursive: true });
-  console.log(`\npictures: ${pictures}\n${passed} passed, ${troubles.length} failed${troubles.map((name) => `\n  ${name}`).join("")}`);
+  console.log(`\npictures: ${pictures}\n${passed} passed, ${troubles.length} failed, ${skipped} skipped${troubles.map((name) => `\n  ${name}`).join("")}`);
   process.exitCode = troubles.length ? 1 : 0;
 }

@@ -1,6 +1,7 @@
 // What is shown: numbers without digits that say nothing, nothing stale, nothing cut off, nothing out of sight.
 import assert from "node:assert/strict";
-import { accessible, drop, idle, npy, saved, test } from "./harness.mjs";
+import { join } from "node:path";
+import { accessible, drop, idle, made, maps, npy, npyHead, saved, test } from "./harness.mjs";
 
 await test("the room says what its numbers are of, while others are computed and after bad input", async (tab) => {
   await tab.click("#room-tab");
@@ -21,11 +22,67 @@ await test("the room says what its numbers are of, while others are computed and
   assert.equal(await tab.textContent("#room-error"), 'range: "abc" is not a number');
   assert.equal(await tab.inputValue("#range-slider"), slider);
   assert.equal(await tab.getAttribute("#range-number", "aria-invalid"), "true");
-  assert.deepEqual(await state(), ["true", "Below is still z 3 m, σ 0.2 m, cells of 0.05 m."]);
+  // Nothing computes, and what is shown is of other values.
+  assert.deepEqual(await state(), ["false", "Below is still z 3 m, σ 0.2 m, cells of 0.05 m."]);
+  assert.equal(await tab.getAttribute("#room-result", "data-stale"), "");
   await accessible(tab);
   await changed("2");
   await tab.waitForFunction(() => document.getElementById("room-shown").textContent.startsWith("For z 2 m"));
   assert.equal(await tab.getAttribute("#range-number", "aria-invalid"), null);
+});
+
+await test("the room's words are of the numbers below, also while a long computation follows a short one", async (tab) => {
+  await tab.click("#room-tab");
+  await tab.waitForFunction(() => document.getElementById("room-shown").textContent.startsWith("For z 2 m"));
+  const seen = await tab.evaluate(async () => {
+    const [field, limits, shown] = ["range-number", "limits", "room-shown"].map((id) => document.getElementById(id));
+    const set = (value) => {
+      field.value = value;
+      field.dispatchEvent(new Event("input", { bubbles: true }));
+    };
+    const before = limits.textContent;
+    set("10");
+    set("30");
+    while (limits.textContent === before) await new Promise((next) => setTimeout(next, 1));
+    const first = shown.textContent;
+    while (!shown.textContent.startsWith("For ")) await new Promise((next) => setTimeout(next, 5));
+    return [first, shown.textContent];
+  });
+  assert.deepEqual(seen, ["Computing; below is still z 10 m, σ 0.2 m, cells of 0.05 m.", "For z 30 m, σ 0.2 m, cells of 0.05 m."]);
+});
+
+await test("the field that a refusal of the room names is marked, and no other", async (tab) => {
+  await tab.click("#room-tab");
+  await tab.waitForFunction(() => document.getElementById("room-shown").textContent.startsWith("For z 2 m"));
+  const marked = () => tab.locator('#room-view [aria-invalid="true"]').evaluateAll((fields) => fields.map(({ id }) => id));
+  for (const [id, value, good, words] of [
+    ["range-number", "100", "2", /cells/], ["sigma-number", "-1", "0.2", /sigma/], ["side-number", "0,3", "0.05", /its mark is the point: 0\.3/],
+  ]) {
+    if (id === "range-number") await tab.fill("#side-number", "0.04");
+    await tab.fill(`#${id}`, value);
+    await tab.waitForFunction((source) => new RegExp(source).test(document.getElementById("room-error").textContent), words.source);
+    // Too many cells are a matter of their size.
+    assert.deepEqual(await marked(), [id === "range-number" ? "side-number" : id]);
+    await tab.fill(`#${id}`, good);
+    await tab.locator("#room-error:empty").waitFor({ state: "attached" });
+    assert.deepEqual(await marked(), []);
+  }
+});
+
+await test("one cell hints at the point", async (tab) => {
+  await tab.click("#cell-tab");
+  await tab.fill("#p", "0,3");
+  await tab.locator("#p-error:not(:empty)").waitFor();
+  assert.equal(await tab.textContent("#p-error"), '"0,3" is not a number; its mark is the point: 0.3');
+});
+
+await test("the sample is called one, and what is measured is named", async (tab) => {
+  await idle(tab);
+  assert.equal(await tab.textContent("#chosen"), "A sample, not yours: room.yaml");
+  assert.equal(await tab.textContent("#status"), "");
+  await drop(tab, ["room.yaml", "room.pgm"].map((name) => join(maps, name)));
+  await tab.waitForFunction(() => document.getElementById("status").textContent === "measured: room.yaml");
+  assert.equal(await tab.textContent("#chosen"), "room.yaml");
 });
 
 await test("an area has no more digits than it means", async (tab) => {
@@ -78,6 +135,12 @@ await test("the page says what it reads and what the command reads, and where p 
   assert.ok(await tab.locator("#percent").isVisible());
   await drop(tab, [npy("floats.npy", 1, 1, [0.3])]);
   await tab.waitForFunction(() => document.getElementById("chosen").textContent === "floats.npy");
+  await idle(tab);
+  assert.equal(await tab.locator("#percent").isVisible(), false);
+  // Percentages of an array are rounded by no reader of ROS maps.
+  const head = npyHead(1, 3).replace("<f4", "|i1");
+  await drop(tab, [made("percent.npy", Buffer.concat([Buffer.from(head, "latin1"), Buffer.from([10, 40, 255])]))]);
+  await tab.waitForFunction(() => document.getElementById("chosen").textContent === "percent.npy");
   await idle(tab);
   assert.equal(await tab.locator("#percent").isVisible(), false);
 });

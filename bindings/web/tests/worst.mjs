@@ -1,6 +1,6 @@
 // The worst cells and the worst region: found, listed, marked and gone to, against a search through all cells here.
 import assert from "node:assert/strict";
-import { accessible, drop, idle, npy, numbers, pointedAt, test } from "./harness.mjs";
+import { accessible, drop, idle, npy, numbers, pointedAt, saved, test } from "./harness.mjs";
 
 const [WIDTH, HEIGHT, SIDE] = [200, 120, 16];
 const entropy = (p) => (p === 0.5 || p === 0 || p === 1 ? 0 : -p * Math.log2(p) - (1 - p) * Math.log2(1 - p));
@@ -66,6 +66,15 @@ await test("the worst cells and the worst region are found and gone to", async (
   await told(tab, column(cells[3]));
   await accessible(tab);
 
+  // The file holds them with all digits.
+  const [head, region, ...rows] = (await saved(tab, "#save-worst")).toString().trim().split("\n").map((line) => line.split(","));
+  assert.equal(head.length, rows[0].length);
+  assert.deepEqual(head.slice(5, 7), ["x_m", "y_m"]);
+  assert.deepEqual(rows.map(([what, column, row, , , , , p]) => [what, Number(column), Number(row), Math.fround(p)]),
+    cells.map(({ column, row, p }) => ["cell", column, row, p]));
+  assert.deepEqual(region.slice(0, 5), ["region", square.column, square.row, SIDE, SIDE].map(String));
+  assert.ok(Math.abs(region[5] - (square.column + SIDE / 2) * 0.05) < 1e-9 && Math.abs(region[8] - square.sum) < 1e-3, region.join());
+
   // Another size of regions.
   await tab.selectOption("#worst-side", "4");
   await tab.waitForFunction(() => document.getElementById("worst-square").textContent.startsWith("Worst region: 4 × 4 cells"));
@@ -78,7 +87,7 @@ await test("a map that is certain has no worst cells", async (tab) => {
   await idle(tab);
   assert.ok(await tab.locator("#worst-none").isVisible());
   assert.equal(await tab.locator("#worst-table").isVisible(), false);
-  for (const id of ["#worst-cell", "#worst-region"]) assert.ok(await tab.locator(id).isDisabled());
+  for (const id of ["#worst-cell", "#worst-region", "#save-worst"]) assert.ok(await tab.locator(id).isDisabled());
 });
 
 await test("the buttons zoom about the marked cell", async (tab) => {
@@ -92,4 +101,61 @@ await test("the buttons zoom about the marked cell", async (tab) => {
   for (let k = 0; k < 3; k++) await tab.click("#zoom-in");
   await told(tab, `Column ${cell[0]}, row ${cell[1]}, `);
   assert.deepEqual(await pointedAt(tab, "#heat-map", "#cell-told", [0.3, 0.3]), cell);
+});
+
+await test("of more equal cells than are listed it is said how many there are", async (tab) => {
+  await idle(tab);
+  await drop(tab, [npy("ties.npy", 4, 7, new Array(28).fill(0.25))]);
+  await tab.waitForFunction(() => document.getElementById("chosen").textContent === "ties.npy");
+  await idle(tab);
+  assert.equal(await tab.textContent("#worst-caption"), "The first 10 of 28 cells with the largest entropy, numbers to six digits.");
+  await tab.focus("#heat-map");
+  for (let k = 0; k < 2; k++) await tab.keyboard.press("w");
+  await tab.waitForFunction(() => document.getElementById("cell-told").textContent.endsWith("worst cell 2 of 10 listed, of 28 that are equal"));
+  // The two questions are told apart.
+  assert.match(await tab.textContent("#worst"), /Two questions/);
+});
+
+await test("the wheel scrolls the page, and zooms where the map has the focus or with Ctrl", async (tab) => {
+  await idle(tab);
+  const canvas = tab.locator("#heat-map");
+  await canvas.scrollIntoViewIfNeeded();
+  const { x, y, width, height } = await canvas.boundingBox();
+  await tab.mouse.move(x + width / 2, y + height / 2);
+  const wheel = (deltaY, ctrlKey = false) => canvas.evaluate((canvas, [deltaY, ctrlKey]) => {
+    const { left, top, width, height } = canvas.getBoundingClientRect();
+    const [clientX, clientY] = [left + width / 2, top + height / 2];
+    // False where the page does not scroll.
+    return canvas.dispatchEvent(new WheelEvent("wheel", { deltaY, ctrlKey, clientX, clientY, cancelable: true, bubbles: true }));
+  }, [deltaY, ctrlKey]);
+  const scrolls = [await wheel(-100), await wheel(100)];
+  await canvas.focus();
+  // Focused: at all nothing is left to zoom out; in and out again zoom.
+  scrolls.push(await wheel(100), await wheel(-100), await wheel(100), await wheel(100));
+  await tab.focus("#zoom-in");
+  scrolls.push(await wheel(-100, true), await wheel(100, true), await wheel(100, true));
+  assert.deepEqual(scrolls, [true, true, true, false, false, true, false, false, false]);
+  assert.match(await tab.textContent("#keys"), /wheel.*focus.*Ctrl/s);
+  // As a wheel does it.
+  const at = await tab.evaluate(() => scrollY);
+  await tab.mouse.wheel(0, -60);
+  await tab.waitForFunction((at) => scrollY < at, at);
+});
+
+await test("where two fingers part no cell is marked", async (tab) => {
+  await idle(tab);
+  const touch = (steps) => tab.locator("#heat-map").evaluate((canvas, steps) => {
+    canvas.setPointerCapture = () => {};
+    const { left, top, width, height } = canvas.getBoundingClientRect();
+    for (const [type, pointerId, right, down] of steps) {
+      canvas.dispatchEvent(new PointerEvent(type, { pointerId, clientX: left + right * width, clientY: top + down * height, bubbles: true }));
+    }
+  }, steps);
+  const before = await tab.textContent("#cell-told");
+  await touch([["pointerdown", 1, 0.4, 0.5], ["pointerdown", 2, 0.6, 0.5], ["pointerup", 2, 0.6, 0.5], ["pointerup", 1, 0.4, 0.5]]);
+  await tab.waitForTimeout(300);
+  assert.equal(await tab.textContent("#cell-told"), before);
+  // One finger marks.
+  await touch([["pointerdown", 3, 0.4, 0.5], ["pointerup", 3, 0.4, 0.5]]);
+  await told(tab, "Column");
 });

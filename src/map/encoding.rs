@@ -179,7 +179,7 @@ fn log_odds(stored: i8) -> f64 {
 impl Encoding for MrptLogOdds {
     type Stored = i8;
     type Float = f64;
-    const ALLOWED: &'static str = "any byte";
+    const ALLOWED: &'static str = "a byte, from -128 to 127";
 
     fn unknown() -> i8 {
         0

@@ -17,8 +17,6 @@ const LANES: usize = 64;
 const FEW: usize = 4;
 /// The number of equal cells that are counted at once.
 const RUN: usize = 32;
-/// The number of cells that are loaded at once where they are counted one by one.
-const WORD: usize = 8;
 /// The number of cells from which separate tables pay, which must be cleared and added up.
 const TABLES_FROM: usize = 2048;
 /// The number of cells from which comparing with few values pays.
@@ -300,9 +298,9 @@ fn count_few<B: Byte>(stretch: &[B], values: [u8; FEW]) -> Option<[u32; FEW]> {
     (counts.iter().sum::<u32>() as usize == stretch.len()).then_some(counts)
 }
 
-/// Counts cells in as many tables as a word has, because in one table equal neighbours would wait for each other.
+/// Counts cells in four tables, because in one table equal neighbours would wait for each other.
 fn count_all<B: Byte>(cells: &[B]) -> [u32; 256] {
-    let mut tables = [[0_u32; 256]; WORD];
+    let mut tables = [[0_u32; 256]; 4];
     count_into(&mut tables, cells);
     core::array::from_fn(|byte| tables.iter().map(|table| table[byte]).sum())
 }
@@ -317,12 +315,8 @@ fn count_into<B: Byte, C: AddAssign + From<u8>, const N: usize>(tables: &mut [[C
             tables[0][usize::from(first)] += C::from(RUN as u8);
             continue;
         }
-        // One load for a word, and shifts: faster than one by one (benches/RESULTS.md, "From Python").
-        for word in run.as_chunks::<WORD>().0 {
-            let word = u64::from_le_bytes(word.map(sealed::Sealed::byte));
-            for k in 0..WORD {
-                tables[k % N][usize::from((word >> (8 * k)) as u8)] += C::from(1);
-            }
+        for (k, &cell) in run.iter().enumerate() {
+            tables[k % N][usize::from(cell.byte())] += C::from(1);
         }
     }
     for &cell in rest {

@@ -55,8 +55,18 @@ impl<T: Real> ScanMap<T> {
         parts::for_threads(self.cells()).map(|cells| self.tally_of(cells)).sum()
     }
 
-    /// Counts the cells of the rectangle that was seen.
-    pub(super) fn cells(&self) -> u64 {
+    /// Counts the cells of the rectangle that was seen, those of the [`tally`](Self::tally), without measuring them.
+    ///
+    /// ```
+    /// use mean_information::scan::{Beam, Pose, Scan, ScanMap};
+    /// use mean_information::sensor::SteppedSensor;
+    /// let scan = Scan::new(Pose::new(0.13, 0.12, 0.0)?, 2.0, vec![Beam { bearing: 0.0, range: Some(0.5) }])?;
+    /// let mut map = ScanMap::<f64>::new(0.25)?;
+    /// map.insert(&scan, |range| SteppedSensor::new(range, 0.25, 0.25, 0.875))?;
+    /// assert_eq!((map.cells(), map.tally().cells()), (4, 4));
+    /// # Ok::<(), mean_information::Error>(())
+    /// ```
+    pub fn cells(&self) -> u64 {
         self.sums.as_ref().map_or(0, |sums| sums.seen().cells() as u64)
     }
 

@@ -70,12 +70,15 @@ def main():
     row("one scalar, ns a call", 1e-9, *seconds(lambda: mi.information(x), lambda: entr(x), number=20_000))
     where = cells < 0.7
     masked = np.ma.array(cells, mask=~where)
-    times = seconds(lambda: mi.tally(cells, where=where), lambda: mi.tally(masked), lambda: mi.tally(cells), lambda: cells[where])
+    tallies = [lambda: mi.tally(cells, where=where), lambda: mi.tally(masked), lambda: mi.tally(cells)]
+    times = seconds(*tallies, lambda: cells[where])
     with_where, with_mask, whole, compress = times
-    row("`tally`, `where=` of 0.7 of 10^7 float64, ns a cell, beside without and NumPy's `cells[where]`", each, with_where, whole, compress)
+    work = "`tally`, `where=` of 0.7 of 10^7 float64, ns a cell, beside without and NumPy's `cells[where]`"
+    row(work, each, with_where, whole, compress)
     row("the same of a masked array", each, with_mask, whole, compress)
     rows = cells[: 16 * 50_000].reshape(-1, 16)
-    times = seconds(lambda: mi.mean_information(rows, axis=1), lambda: by_scipy(rows).mean(axis=1), lambda: by_numpy(rows).mean(axis=1))
+    others = [lambda by=by: by(rows).mean(axis=1) for by in (by_scipy, by_numpy)]
+    times = seconds(lambda: mi.mean_information(rows, axis=1), *others)
     row("`mean_information(axis=1)`, 50 000 maps of 16 cells, ns a map", len(rows) * 1e-9, *times)
     particles, weights = random.random((40, 1, 100_000)), random.random(40)
     expected = mi.expected_map(particles, weights).probabilities

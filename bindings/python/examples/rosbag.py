@@ -1,6 +1,7 @@
 """The maps of a bag, read by `rosbags` without ROS: `python rosbag.py BAG [TOPIC]`.
 
-`mi.read_bag` and `meaninfo bag` do so by themselves, and apply updates of maps, too; this is for who reads a bag's other topics, too.
+`mi.read_bag` and `meaninfo bag` do so by themselves, and apply updates of maps, too; this is for who reads a bag's other
+topics, too.
 """
 
 import sys

@@ -75,10 +75,14 @@ fn small<E: EachCell>(
     let cells = chosen.cells.view().permuted_axes(order);
     let (maps, mut steps) = (BATCH / size, Steps::default());
     let mut bits = vec![E::Float::zero(); maps * size];
+    let mut batch = Vec::with_capacity(maps * size);
     if let (Some(all), None) = (cells.as_slice(), &chosen.mask) {
-        for batch in all.chunks(maps * size) {
+        for cells in all.chunks(maps * size) {
+            // Copied, as each cell is looked at twice, and another thread may write meanwhile.
+            batch.clear();
+            batch.extend_from_slice(cells);
             let bits = &mut bits[..batch.len()];
-            E::information(batch, bits);
+            E::information(&batch, bits);
             for (cells, bits) in batch.chunks(size).zip(bits.chunks(size)) {
                 means.push(mean::<E>(cells, bits)?);
             }
@@ -88,7 +92,7 @@ fn small<E: EachCell>(
     }
     let mask = chosen.mask.as_ref().map(|mask| mask.view().permuted_axes(order));
     let mut mask = mask.as_ref().map(|mask| mask.iter());
-    let (mut batch, mut ends) = (Vec::with_capacity(maps * size), Vec::with_capacity(maps));
+    let mut ends = Vec::with_capacity(maps);
     let mut cells = cells.iter();
     while cells.len() > 0 {
         for _ in 0..maps.min(cells.len() / size) {

@@ -103,8 +103,8 @@ type Measured = (u64, (usize, usize), f64, (f64, f64), Tally<f64>, Option<u64>);
 
 /// Measure the maps of a bag, one for each message, as the command ``meaninfo bag`` does.
 ///
-/// Messages are `nav_msgs/OccupancyGrid`; updates of rectangles (`map_msgs/OccupancyGridUpdate` on ``TOPIC_updates``) are applied.
-/// Memory holds one map.
+/// Messages are `nav_msgs/OccupancyGrid`; updates of rectangles (`map_msgs/OccupancyGridUpdate` on ``TOPIC_updates``) are
+/// applied. Memory holds one map.
 ///
 /// Parameters
 /// ----------

@@ -132,17 +132,18 @@ impl<S: Copy> Chosen<'_, S> {
         if let Stop::Raised(error) = stop {
             return error;
         }
-        for (index, &cell) in self.cells.indexed_iter() {
-            let is_meant = self.mask.as_ref().is_none_or(|mask| mask[index.clone()] != 0);
-            if is_meant && !E::is_valid(cell) {
-                let place: Vec<_> = index.as_array_view().iter().map(ToString::to_string).collect();
-                let (place, value) = (place.join(", "), E::value(cell));
-                let place = if place.is_empty() { String::new() } else { format!("[{place}]") };
-                let (shown, allowed, advice) = (shown(value), E::ALLOWED, advice::<E>(value));
-                return PyValueError::new_err(format!(
-                    "cells{place} is {shown}, allowed is {allowed}{advice}"
-                ));
-            }
+        let meant = || {
+            let all = self.cells.indexed_iter();
+            all.filter(|(index, _)| self.mask.as_ref().is_none_or(|mask| mask[index.clone()] != 0))
+        };
+        let first = meant().find(|&(_, &cell)| !E::is_valid(cell));
+        if let Some((index, &cell)) = first {
+            let place: Vec<_> = index.as_array_view().iter().map(ToString::to_string).collect();
+            let (place, value) = (place.join(", "), E::value(cell));
+            let place = if place.is_empty() { String::new() } else { format!("[{place}]") };
+            let (shown, allowed) = (shown(value), E::ALLOWED);
+            let advice = advice::<E>(value, meant().map(|(_, &cell)| E::value(cell)));
+            return PyValueError::new_err(format!("cells{place} is {shown}, allowed is {allowed}{advice}"));
         }
         PyValueError::new_err("the cells changed while they were measured")
     }
@@ -153,21 +154,36 @@ pub(crate) fn shown(value: f64) -> String {
     if value.is_nan() { "nan".to_owned() } else { value.to_string() }
 }
 
-/// Returns what may help with a value that an encoding does not allow.
-fn advice<E: Encoding>(value: f64) -> &'static str {
-    let is_probability = E::ALLOWED == Probability::<f64>::ALLOWED;
-    match value {
-        _ if value.is_nan() => "; where=~np.isnan(cells) leaves such cells out",
-        -1.0 if is_probability => "; np.where(cells < 0, 0.5, cells) makes -1 unknown",
-        1.0..=100.0 if is_probability && value.fract() == 0.0 => {
-            "; of percentages (ROS) in floats, cells.astype(np.int8) with encoding=\"percent\""
+/// Returns what may help with a value that an encoding does not allow. What all values are decides: a step that one of them
+/// needs must not change what another means, neither by itself nor by the step that follows it.
+fn advice<E: Encoding>(value: f64, all: impl Iterator<Item = f64>) -> &'static str {
+    if value.is_nan() {
+        return "; where=~np.isnan(cells) leaves such cells out";
+    }
+    if E::ALLOWED != Probability::<f64>::ALLOWED {
+        let is_grey = value > 100.0;
+        let words = "; of the grey levels of an image, read_map reads the yaml that says what they mean";
+        return if is_grey { words } else { "" };
+    }
+    let (mut are_near, mut are_percent, mut are_whole, mut has_unknown) = (true, true, true, false);
+    for value in all {
+        are_near &= value == -1.0 || (-1e-6..=1.000_001).contains(&value);
+        are_percent &= value == -1.0 || (0.0..=100.0).contains(&value);
+        are_whole &= value.fract() == 0.0;
+        has_unknown |= value == -1.0;
+    }
+    match (are_near, are_percent) {
+        // Before rounding is cut off, which would make -1 free.
+        (true, _) if has_unknown => "; np.where(cells == -1, 0.5, cells) makes -1 unknown",
+        (true, _) => "; np.clip(cells, 0, 1) cuts rounding off",
+        (false, true) if are_whole => {
+            "; of percentages (ROS) in floats, -1 for unknown, cells.astype(np.int8) with encoding=\"percent\", as all are \
+             whole numbers"
         }
-        -1e-6..=1.000_001 if is_probability => "; np.clip(cells, 0, 1) cuts rounding off",
-        _ if is_probability => "",
-        _ if value > 100.0 => {
-            "; of the grey levels of an image, read_map reads the yaml that says what they mean"
+        (false, true) => {
+            "; if they are percentages, -1 for unknown, np.where(cells == -1, 0.5, cells / 100) makes probabilities of them"
         }
-        _ => "",
+        (false, false) => "",
     }
 }
 

@@ -22,8 +22,11 @@ const IS_DIRECTORY: i32 = 21;
 /// Converts what a reader refuses, with the file and the command's words: `FileNotFoundError` and other kinds of `OSError`, with
 /// `errno` and `filename` as of Python's `open`, `MemoryError`, or `ValueError`.
 pub(crate) fn of_file(error: mean_information_files::Error) -> PyErr {
-    let (kind, file) = (error.kind(), error.file().map(Path::to_owned));
-    let cause = std::error::Error::source(&error).and_then(|cause| cause.downcast_ref::<io::Error>());
+    let source = std::error::Error::source(&error);
+    // The file that is not there may be one that the file names: the image of a yaml file.
+    let missing = source.and_then(|cause| cause.downcast_ref::<mean_information_files::Error>());
+    let file = missing.and_then(|missing| missing.file()).or(error.file()).map(Path::to_owned);
+    let (kind, cause) = (error.kind(), source.and_then(|cause| cause.downcast_ref::<io::Error>()));
     let number = cause.and_then(io::Error::raw_os_error);
     // What the system says, in Python's words for it; else the reader's.
     let of_system =

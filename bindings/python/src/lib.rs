@@ -13,6 +13,7 @@
 //! | `expected` | the expected map of a filter's particles |
 //! | `limit` | the limit of the mean information |
 //! | `sensors` | inverse sensor models |
+//! | `readings` | lists of numbers of a scan, whose masks are kept |
 //! | `scan_map` | maps from range scans |
 //! | `interruptible` | a disk whose files Ctrl-C closes |
 //! | `trajectory` | trajectories, read |
@@ -34,6 +35,7 @@ mod limit;
 mod long_work;
 mod maps;
 mod pickled;
+mod readings;
 mod scan_map;
 mod scans;
 mod sensors;

@@ -93,12 +93,14 @@ pub(crate) fn kind_of_map(py: Python<'_>, path: PathBuf) -> PyResult<(&'static s
 
 /// Read a map, for whose kind `_files.py` has found the arguments fit.
 #[pyfunction]
-#[pyo3(signature = (path, *, semantics="nav2", mode=None, unknown=None, encoding=None, resolution=None, topic=None, max_cells=None))]
+#[pyo3(signature = (
+    path, *, semantics=None, mode=None, unknown=None, encoding=None, resolution=None, topic=None, max_cells=None,
+))]
 #[expect(clippy::too_many_arguments, reason = "the options of the command")]
 pub(crate) fn read_map(
     py: Python<'_>,
     path: PathBuf,
-    semantics: &str,
+    semantics: Option<&str>,
     mode: Option<&str>,
     unknown: Option<f64>,
     encoding: Option<&str>,
@@ -107,10 +109,10 @@ pub(crate) fn read_map(
     max_cells: Option<u64>,
 ) -> PyResult<PyMap> {
     let semantics = match semantics {
-        "nav2" => Semantics::Nav2,
-        "nav2-humble" => Semantics::Nav2Humble,
-        "ros1" => Semantics::Ros1,
-        _ => return Err(choice("semantics", semantics, "'nav2', 'nav2-humble' and 'ros1'")),
+        None | Some("nav2") => Semantics::Nav2,
+        Some("nav2-humble") => Semantics::Nav2Humble,
+        Some("ros1") => Semantics::Ros1,
+        Some(semantics) => return Err(choice("semantics", semantics, "'nav2', 'nav2-humble' and 'ros1'")),
     };
     let mode = match mode {
         None => None,

@@ -2,14 +2,17 @@
 
 use crate::errors::{count, refused};
 use crate::long_work::watched;
+use crate::readings::{Masked, floats};
 use crate::sensors::{FunctionReading, PySteppedSensor, Sensor};
 use crate::tally::PyTally;
 use mean_information::Error;
 use mean_information::scan::{Beam, Pose, Scan, ScanMap};
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
-use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::exceptions::{PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use std::sync::Arc;
+use pyo3::sync::MutexExt;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread::{self, ThreadId};
 
 /// A map that range scans are inserted into, and removed from again, to the bits of a map that never had them.
 ///
@@ -40,13 +43,18 @@ use std::sync::Arc;
 /// >>> scans.remove((0.13, 0.27, 0.0), [0.0, 1.5], [1.5, float("inf")], max_range=2.0)
 /// >>> scans.scans
 /// 0
-#[pyclass(name = "ScanMap", module = "mean_information")]
+#[pyclass(frozen, name = "ScanMap", module = "mean_information")]
 pub(crate) struct PyScanMap {
-    /// Shared with who measures it without the interpreter; what changes it meanwhile changes a copy.
-    map: Arc<ScanMap<f64>>,
+    /// Locked by who changes it. Shared with who measures it, who needs no lock: what changes it meanwhile changes a copy.
+    map: Mutex<Arc<ScanMap<f64>>>,
+    /// Who changes it.
+    changer: Mutex<Option<ThreadId>>,
     #[pyo3(get)]
     sensor: Py<PyAny>,
 }
+
+/// The cells below which a map is measured sooner than a thread begins that could be left for a signal.
+const FEW_CELLS: u64 = 100_000;
 
 /// What is done with a scan.
 #[derive(Clone, Copy)]
@@ -59,15 +67,54 @@ enum Change {
 type Given<'a, 'py> = (&'a Bound<'py, PyAny>, &'a Bound<'py, PyAny>, &'a Bound<'py, PyAny>, f64);
 
 impl PyScanMap {
+    fn of(map: Arc<ScanMap<f64>>, sensor: Py<PyAny>) -> Self {
+        Self { map: Mutex::new(map), changer: Mutex::default(), sensor }
+    }
+
+    /// Waits, without the interpreter, until no other thread changes the map.
+    ///
+    /// # Errors
+    /// `RuntimeError` if this thread does: the model of its readings asks for the map.
+    fn locked(&self, py: Python<'_>) -> PyResult<MutexGuard<'_, Arc<ScanMap<f64>>>> {
+        if *unpoisoned(self.changer.lock()) == Some(thread::current().id()) {
+            return Err(PyRuntimeError::new_err(
+                "the map is asked for while a scan is inserted or removed, by its sensor",
+            ));
+        }
+        Ok(unpoisoned(self.map.lock_py_attached(py)))
+    }
+
+    /// Returns the map as it is now.
+    fn now(&self, py: Python<'_>) -> PyResult<Arc<ScanMap<f64>>> {
+        self.locked(py).map(|map| Arc::clone(&map))
+    }
+
+    /// Computes something of the map as it is now, without the interpreter.
+    fn measured<T: Send + 'static>(
+        &self,
+        py: Python<'_>,
+        measure: impl FnOnce(&ScanMap<f64>) -> T + Send + 'static,
+    ) -> PyResult<T> {
+        let map = self.now(py)?;
+        if map.cells() < FEW_CELLS {
+            Ok(py.detach(|| measure(&map)))
+        } else {
+            watched(py, move || measure(&map))
+        }
+    }
+
     /// Changes the map by a scan and the model of its readings; a scan without beams says nothing.
-    fn change(&mut self, py: Python<'_>, change: Change, given: Given<'_, '_>) -> PyResult<()> {
+    fn change(&self, py: Python<'_>, change: Change, given: Given<'_, '_>) -> PyResult<()> {
         let (pose, bearings, ranges, max_range) = given;
-        let (bearings, ranges) = (floats("bearings", bearings)?, floats("ranges", ranges)?);
+        let bearings = floats("bearings", bearings, Masked::Refused)?;
+        let ranges = floats("ranges", ranges, Masked::Nan)?;
         let Some(scan) = scan(pose_of(pose)?, &bearings, &ranges, max_range)? else {
             return Ok(());
         };
         let sensor = Sensor::new(self.sensor.bind(py))?;
-        let map = Arc::make_mut(&mut self.map);
+        let mut map = self.locked(py)?;
+        *unpoisoned(self.changer.lock()) = Some(thread::current().id());
+        let map = Arc::make_mut(&mut map);
         /// Inserts or removes.
         macro_rules! apply {
             ($model:expr) => {
@@ -77,14 +124,21 @@ impl PyScanMap {
                 }
             };
         }
-        match sensor {
+        let changed = match sensor {
             Sensor::Named(model) => py.detach(|| apply!(|range| model.of_range(range))).map_err(refused),
             Sensor::Function(function) => {
                 let model = |range| Ok::<_, Error>(FunctionReading::new(&function, range));
                 apply!(model).map_err(|error| function.raised(error))
             }
-        }
+        };
+        *unpoisoned(self.changer.lock()) = None;
+        changed
     }
+}
+
+/// Takes what a lock guards, also after a fault in another thread.
+fn unpoisoned<T>(locked: Result<T, PoisonError<T>>) -> T {
+    locked.unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Takes a scan of Python: beams whose range is NaN are left out, those at the greatest range and beyond did not return.
@@ -123,7 +177,7 @@ impl PyScanMap {
             None => Py::new(py, PySteppedSensor::new(resolution, 0.4, 0.7)?)?.into_any(),
         };
         Sensor::new(sensor.bind(py))?;
-        Ok(Self { map: Arc::new(map), sensor })
+        Ok(Self::of(Arc::new(map), sensor))
     }
 
     /// Insert a scan: along each beam, as far as the model of its range reaches, the cells that it crosses.
@@ -135,20 +189,21 @@ impl PyScanMap {
     /// bearings : array_like of float, shape (n,)
     ///     The directions of the beams from the heading, in radians, counter-clockwise.
     /// ranges : array_like of float, shape (n,)
-    ///     What came back, in metres. NaN: the beam is left out. `max_range` and more: nothing came back, the space up to
-    ///     there is free.
+    ///     What came back, in metres. NaN, or masked: the beam is left out. `max_range` and more: nothing came back, the space
+    ///     up to there is free.
     /// max_range : float
     ///     The greatest range of the sensor, in metres.
     ///
     /// Raises
     /// ------
     /// TypeError, ValueError
-    ///     If an argument is no list of numbers; if a number is out of its range, the first of which is named; then the map has not changed.
+    ///     If an argument is no list of numbers, or poses or bearings are masked; if a number is out of its range, the first of
+    ///     which is named; then the map has not changed.
     /// MemoryError
     ///     If the map would grow beyond 2**26 cells; then it has not changed.
     #[pyo3(signature = (pose, bearings, ranges, *, max_range))]
     fn insert(
-        &mut self,
+        &self,
         py: Python<'_>,
         pose: &Bound<'_, PyAny>,
         bearings: &Bound<'_, PyAny>,
@@ -171,7 +226,7 @@ impl PyScanMap {
     ///     If the map does not hold the scan; then the map has not changed.
     #[pyo3(signature = (pose, bearings, ranges, *, max_range))]
     fn remove(
-        &mut self,
+        &self,
         py: Python<'_>,
         pose: &Bound<'_, PyAny>,
         bearings: &Bound<'_, PyAny>,
@@ -187,8 +242,7 @@ impl PyScanMap {
     /// -------
     /// Tally
     fn tally(&self, py: Python<'_>) -> PyResult<PyTally> {
-        let map = Arc::clone(&self.map);
-        watched(py, move || map.tally()).map(PyTally::from)
+        self.measured(py, |map| map.tally()).map(PyTally::from)
     }
 
     /// Return the occupancies of the rectangle that scans have crossed, 1/2 where nothing is known.
@@ -198,49 +252,49 @@ impl PyScanMap {
     /// ndarray of float64, shape (rows, columns)
     ///     Row 0 is the lowest, column 0 the leftmost; its lower left corner is at `origin`.
     fn probabilities<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let map = Arc::clone(&self.map);
-        let grid = watched(py, move || map.probabilities())?.map_err(refused)?;
+        let grid = self.measured(py, |map| map.probabilities())?.map_err(refused)?;
         let cells = PyArray1::from_slice(py, grid.cells()).reshape([grid.height(), grid.width()])?;
         Ok(cells.into_any())
     }
 
     /// Lower left corner of the rectangle that scans have crossed: x and y in metres.
     #[getter]
-    fn origin(&self) -> PyResult<(f64, f64)> {
-        self.map.geometry().map(|geometry| geometry.origin().into()).map_err(refused)
+    fn origin(&self, py: Python<'_>) -> PyResult<(f64, f64)> {
+        self.now(py)?.geometry().map(|geometry| geometry.origin().into()).map_err(refused)
     }
 
     /// Agreement of the scans, in [0, 1]: the part of the readings' log-odds that do not contradict one another; None if the
     /// map does not keep it.
     #[getter]
-    fn agreement(&self) -> Option<f64> {
-        self.map.agreement()
+    fn agreement(&self, py: Python<'_>) -> PyResult<Option<f64>> {
+        self.now(py).map(|map| map.agreement())
     }
 
     /// Side of a cell, in metres.
     #[getter]
-    fn resolution(&self) -> f64 {
-        self.map.resolution()
+    fn resolution(&self, py: Python<'_>) -> PyResult<f64> {
+        self.now(py).map(|map| map.resolution())
     }
 
     /// Number of scans that the map holds.
     #[getter]
-    fn scans(&self) -> u64 {
-        self.map.scans()
+    fn scans(&self, py: Python<'_>) -> PyResult<u64> {
+        self.now(py).map(|map| map.scans())
     }
 
-    fn __repr__(&self) -> String {
-        format!("<ScanMap of {}, cells of {:?} m>", count(self.map.scans(), "scan"), self.map.resolution())
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        let map = self.now(py)?;
+        Ok(format!("<ScanMap of {}, cells of {:?} m>", count(map.scans(), "scan"), map.resolution()))
     }
 
     /// A copy is a map of its own: what is inserted into one is not in the other.
-    fn __copy__(&self, py: Python<'_>) -> Self {
-        Self { map: Arc::clone(&self.map), sensor: self.sensor.clone_ref(py) }
+    fn __copy__(&self, py: Python<'_>) -> PyResult<Self> {
+        Ok(Self::of(self.now(py)?, self.sensor.clone_ref(py)))
     }
 
     fn __deepcopy__(&self, py: Python<'_>, memo: &Bound<'_, PyAny>) -> PyResult<Self> {
         let sensor = py.import("copy")?.call_method1("deepcopy", (&self.sensor, memo))?;
-        Ok(Self { map: Arc::clone(&self.map), sensor: sensor.unbind() })
+        Ok(Self::of(self.now(py)?, sensor.unbind()))
     }
 
     #[expect(clippy::unused_self, reason = "a method of Python")]
@@ -256,7 +310,7 @@ impl PyScanMap {
 fn pose_of(given: &Bound<'_, PyAny>) -> PyResult<Pose> {
     let [x, y, theta] = match given.extract::<(f64, f64, f64)>() {
         Ok((x, y, theta)) => [x, y, theta],
-        Err(_) => match *floats("pose", given)?.as_array().to_vec() {
+        Err(_) => match *floats("pose", given, Masked::Refused)?.as_array().to_vec() {
             [x, y, theta] => [x, y, theta],
             ref others => {
                 let words = format!(
@@ -268,26 +322,4 @@ fn pose_of(given: &Bound<'_, PyAny>) -> PyResult<Pose> {
         },
     };
     Pose::new(x, y, theta).map_err(refused)
-}
-
-/// Takes a list of numbers as floats, as NumPy does; `name` is that of the argument.
-fn floats<'py>(name: &str, list: &Bound<'py, PyAny>) -> PyResult<PyReadonlyArray1<'py, f64>> {
-    let py = list.py();
-    let array = py.import("numpy")?.call_method1("asarray", (list, "float64"));
-    let array = array.map_err(|error| {
-        let words = format!("{name}: {}", error.value(py));
-        if error.is_instance_of::<PyTypeError>(py) {
-            PyTypeError::new_err(words)
-        } else {
-            PyValueError::new_err(words)
-        }
-    })?;
-    let dimensions: usize = array.getattr("ndim")?.extract()?;
-    array.extract().map_err(|_| {
-        let words = format!(
-            "{name} has {}, allowed is one dimension: a list of numbers",
-            count(dimensions as u64, "dimension")
-        );
-        PyValueError::new_err(words)
-    })
 }

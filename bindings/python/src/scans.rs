@@ -10,6 +10,7 @@ use mean_information_files::scans::{Bearings, Frame, RangeScan, Reading, ScanLog
 use mean_information_files::{Warning, read_scans_from, read_trajectory_from};
 use mean_information_report::words::in_words;
 use numpy::PyArray1;
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::path::PathBuf;
 
@@ -202,8 +203,8 @@ pub(crate) fn words(warnings: &[Warning]) -> Vec<String> {
 ///     The file.
 /// max_range : float, optional
 ///     The greatest range in metres, from which on a number means no return; the file's own by default.
-/// time : {"sent", "logged"}
-///     The field of a message that has its time.
+/// time : {"sent", "logged"}, optional
+///     The field of a CARMEN message that has its time, "sent" by default; Cartographer's state has no such fields.
 ///
 /// Returns
 /// -------
@@ -214,17 +215,22 @@ pub(crate) fn words(warnings: &[Warning]) -> Vec<String> {
 /// FileNotFoundError, OSError, MemoryError, ValueError
 ///     As `read_map`.
 #[pyfunction]
-#[pyo3(signature = (path, *, max_range=None, time="sent"))]
+#[pyo3(signature = (path, *, max_range=None, time=None))]
 pub(crate) fn read_scans(
     py: Python<'_>,
     path: PathBuf,
     max_range: Option<f64>,
-    time: &str,
+    time: Option<&str>,
 ) -> PyResult<PyScanLog> {
+    let is_state = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("pbstream"));
     let time = match time {
-        "sent" => TimeField::Sent,
-        "logged" => TimeField::Logged,
-        _ => return Err(choice("time", time, "'sent' and 'logged'")),
+        Some(time) if is_state => {
+            let words = format!("{}: time is '{time}', which is for CARMEN logs", path.display());
+            return Err(PyValueError::new_err(words));
+        }
+        None | Some("sent") => TimeField::Sent,
+        Some("logged") => TimeField::Logged,
+        Some(time) => return Err(choice("time", time, "'sent' and 'logged'")),
     };
     let options = ScanOptions { maximum_range: max_range, time };
     let log = run(py, |source| read_scans_from(source, &path, &options))?;

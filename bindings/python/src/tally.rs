@@ -10,7 +10,7 @@ use mean_information::{InformationSum, Real, Tally};
 use numpy::{Element, PyArrayDescr, PyArrayDescrMethods, PyArrayDyn, PyReadonlyArrayDyn, dtype};
 use pyo3::exceptions::{PyOverflowError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyType};
+use pyo3::types::{PyBytes, PyString, PyType};
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// A tally in either format.
@@ -55,7 +55,7 @@ macro_rules! with_tally {
 /// Parameters
 /// ----------
 /// dtype : {float64, float32}, optional
-///     The precision of the cells of this empty tally, as NumPy takes it; `tally` makes tallies of cells.
+///     The precision of the cells of this empty tally: a type or its name; `tally` makes tallies of cells.
 ///
 /// Examples
 /// --------
@@ -87,11 +87,17 @@ impl PyTally {
     #[pyo3(signature = (dtype=None))]
     fn new(py: Python<'_>, dtype: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
         let Some(given) = dtype else { return Ok(Tally::<f64>::new().into()) };
-        // What NumPy takes for a type: its name, `np.float32`, the `dtype` of an array or a tally.
+        // A type or its name. NumPy would take anything that has a type, a scalar or a column of numbers, too.
         let of_cells = || {
             let words = "Tally() makes an empty tally, and takes a dtype; tally(cells) measures an array";
             PyTypeError::new_err(words)
         };
+        let is_type = given.is_instance_of::<PyType>()
+            || given.is_instance_of::<PyString>()
+            || given.is_instance_of::<PyArrayDescr>();
+        if !is_type {
+            return Err(of_cells());
+        }
         let found = PyArrayDescr::new(py, given).map_err(|_| of_cells())?;
         if found.is_equiv_to(&numpy::dtype::<f64>(py)) {
             Ok(Tally::<f64>::new().into())

@@ -2,6 +2,7 @@
 
 import copy
 import pickle
+from concurrent.futures import ThreadPoolExecutor
 
 import mean_information as mi
 import numpy as np
@@ -145,7 +146,65 @@ def test_copies_of_a_map_of_scans_are_maps_of_their_own():
     assert scans.scans == 1 and scans.tally() == before and scans.agreement == agreement
     with pytest.raises(TypeError, match="a ScanMap is not pickled: insert its scans again"):
         pickle.dumps(scans)
-    assert repr(scans) == "<ScanMap of 1 scan, cells of 0.1 m>" and repr(mi.ScanMap(1.0)) == "<ScanMap of 0 scans, cells of 1.0 m>"
+    assert repr(scans) == "<ScanMap of 1 scan, cells of 0.1 m>"
+    assert repr(mi.ScanMap(1.0)) == "<ScanMap of 0 scans, cells of 1.0 m>"
+
+
+def test_masked_ranges_are_left_out_and_other_masks_refused():
+    pose, bearings, ranges = (0.0, 0.0, 0.0), [-0.5, 0.0, 0.5], [1.0, 0.25, 2.0]
+    left_out, masked = mi.ScanMap(0.1), mi.ScanMap(0.1)
+    left_out.insert(pose, bearings, [1.0, np.nan, 2.0], max_range=4.0)
+    for dtype in (float, np.float32, int):
+        data = np.ma.array([1, 0.25, 2], mask=[False, True, False]).astype(dtype)
+        masked.insert(pose, bearings, data, max_range=4.0)
+        assert masked.tally() == left_out.tally() and not np.isnan(data.data.astype(float)).any()
+        masked.remove(pose, bearings, data, max_range=4.0)
+        assert masked.scans == 0
+    hidden = np.ma.array([0.0, 0.0, 0.0], mask=[False, False, True])
+    for arguments, name in [((pose, hidden, ranges), "bearings"), ((hidden, bearings, ranges), "pose")]:
+        with pytest.raises(TypeError, match=f"{name} has masked numbers, which are unknown"):
+            masked.insert(*arguments, max_range=4.0)
+    # A mask without masked numbers hides nothing.
+    masked.insert(np.ma.array(pose), np.ma.array(bearings), np.ma.array(ranges), max_range=4.0)
+    unmasked = mi.ScanMap(0.1)
+    unmasked.insert(pose, bearings, ranges, max_range=4.0)
+    assert masked.tally() == unmasked.tally()
+    complex_ = np.array([0.0, 0.0, 1j])
+    for arguments, name in [
+        ((pose, complex_, ranges), "bearings"),
+        ((pose, bearings, complex_), "ranges"),
+        ((complex_, bearings, ranges), "pose"),
+    ]:
+        with pytest.raises(TypeError, match=f"{name} has complex numbers, allowed are real ones"):
+            masked.insert(*arguments, max_range=4.0)
+    assert masked.scans == 1
+
+
+def test_threads_share_a_map_of_scans():
+    """None is refused, and all that was inserted is there: while one measures a large map, while one inserts."""
+    scans, poses = mi.ScanMap(0.004), [(0.001 * k, 0.0, 0.0) for k in range(24)]
+    drive(scans, poses[:1])
+    assert scans.tally().cells > 200_000
+    with ThreadPoolExecutor(4) as pool:
+        inserted = [pool.submit(drive, scans, poses[k : k + 1]) for k in range(1, 24)]
+        measured = [pool.submit(measure) for _ in range(12) for measure in (scans.tally, scans.probabilities, scans.__repr__)]
+        for future in inserted + measured:
+            future.result()
+    one_by_one = mi.ScanMap(0.004)
+    drive(one_by_one, poses)
+    assert scans.scans == 24 and scans.tally() == one_by_one.tally()
+
+
+def test_a_sensor_that_asks_for_its_map_is_refused():
+    class Curious(Own):
+        def reach(self, range):
+            return scans.scans + range
+
+    scans = mi.ScanMap(0.25, sensor=Curious())
+    for _ in range(2):
+        with pytest.raises(RuntimeError, match="asked for while a scan is inserted or removed, by its sensor"):
+            drive(scans, [(0.0, 0.0, 0.0)])
+    assert scans.scans == 0
 
 
 def test_results_travel():

@@ -2,6 +2,7 @@
 
 import doctest
 import inspect
+import pydoc
 
 import mean_information as mi
 import numpy as np
@@ -38,6 +39,23 @@ def test_signatures_are_readable(name):
     # No union that an alias stands for.
     assert "Buffer" not in signature and "_SupportsArray" not in signature and "typing." not in signature
     assert len(signature) < 420
+
+
+@pytest.mark.parametrize(
+    ("name", "shown"),
+    [
+        ("read_bag", "read_bag(path, *, topic=None, costmaps=False, max_cells=None)"),
+        ("read_scans", "read_scans(path, *, max_range=None, time=None)"),
+        ("limit", "limit(range, sigma, *, weight='radial', method='closed-form')"),
+        ("Tally", "Tally(dtype=None)"),
+        ("ScanMap", "ScanMap(resolution, *, sensor=None, reading_limit=3.5, agreement=False)"),
+        ("ScanMap", "insert(self, /, pose, bearings, ranges, *, max_range)"),
+        ("RangeScan", "beams(self, /, *, no_return='left-out')"),
+        ("Trajectory", "pose_at(self, /, time, *, max_gap=1.0)"),
+    ],
+)
+def test_help_shows_the_arguments_of_what_is_compiled(name, shown):
+    assert shown in pydoc.render_doc(PUBLIC[name], renderer=pydoc.plaintext)
 
 
 def test_the_module_says_how_to_begin():

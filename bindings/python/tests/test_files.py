@@ -50,6 +50,32 @@ def test_what_is_refused_of_an_array_is_refused_of_its_file(dtype, encoding, tmp
             assert mi.read_map(tmp_path / name, encoding=encoding).tally == expected
 
 
+@pytest.mark.parametrize("value", [127, 128, 200, 254, 255])
+@pytest.mark.parametrize("encoding", ["percent", "mrpt"])
+def test_bytes_without_sign_are_the_same_in_memory_and_in_files(value, encoding, tmp_path):
+    cells = np.array([[0, value]], np.uint8)
+    np.save(tmp_path / "map.npy", cells)
+    if value <= 127 and encoding == "mrpt" or value == 255 and encoding == "percent":
+        assert mi.read_map(tmp_path / "map.npy", encoding=encoding).tally == mi.tally(cells, encoding=encoding)
+        return
+    allowed = {"percent": "a percentage from 0 to 100, or ", "mrpt": "a byte, from -128 to 127"}[encoding]
+    for refused in (lambda: mi.tally(cells, encoding=encoding), lambda: mi.read_map(tmp_path / "map.npy", encoding=encoding)):
+        with pytest.raises(ValueError, match=f" is {value}, allowed is {allowed}"):
+            refused()
+
+
+@pytest.mark.parametrize("encoding", ["probability", "log-odds", "percent", "mrpt"])
+def test_half_precision_is_of_memory_alone(encoding, tmp_path):
+    cells = np.array([[0.25, 0.5]], np.float16)
+    np.save(tmp_path / "map.npy", cells)
+    with pytest.raises(ValueError, match="map.npy: holds floats other than float32 and float64 .*; save p.astype"):
+        mi.read_map(tmp_path / "map.npy", encoding=encoding)
+    assert "float16" in mi.read_map.__doc__
+    if encoding in ("probability", "log-odds"):
+        np.save(tmp_path / "map.npy", cells.astype("f4"))
+        assert mi.read_map(tmp_path / "map.npy", encoding=encoding).tally == mi.tally(cells, encoding=encoding)
+
+
 @pytest.mark.parametrize("dtype", [np.bool_, np.uint8, np.int8, np.uint16])
 def test_no_encoding_is_guessed_from_the_type_of_a_file(dtype, tmp_path):
     np.save(tmp_path / "map.npy", np.array([[0, 1]]).astype(dtype))
@@ -63,6 +89,9 @@ def test_what_a_kind_of_file_has_no_use_for_is_refused(tmp_path, maps):
         (maps / "room.yaml", {"resolution": 0.1}),
         (maps / "room.yaml", {"encoding": "percent"}),
         (maps / "room.yaml", {"topic": "/map"}),
+        (tmp_path / "map.npy", {"semantics": "nav2"}),
+        (tmp_path / "map.gridmap", {"semantics": "ros1"}),
+        (tmp_path / "map.mcap", {"semantics": "ros1"}),
         (tmp_path / "map.npy", {"mode": "raw"}),
         (tmp_path / "map.npy", {"topic": "/map"}),
         (tmp_path / "map.gridmap", {"unknown": 0.5}),
@@ -71,6 +100,13 @@ def test_what_a_kind_of_file_has_no_use_for_is_refused(tmp_path, maps):
         with pytest.raises(ValueError, match=re.escape(f"{path}: {name} is {value!r}, which is for ")):
             mi.read_map(path, **arguments)
     assert mi.read_map(tmp_path / "map.npy", unknown=0.25).tally.unknown == 2
+    for time in ("sent", "logged", "x"):
+        with pytest.raises(ValueError, match=f"a.pbstream: time is '{time}', which is for CARMEN logs"):
+            mi.read_scans(tmp_path / "a.pbstream", time=time)
+    assert mi.read_map(maps / "room.yaml", semantics="nav2").tally == mi.read_map(maps / "room.yaml").tally
+    assert len(mi.read_scans(maps / "room.log", time="sent").scans) == len(mi.read_scans(maps / "room.log").scans)
+    with pytest.raises(ValueError, match="time is 'x', allowed are 'sent' and 'logged'"):
+        mi.read_scans(maps / "room.log", time="x")
 
 
 def test_what_was_read_travels(maps, tmp_path):
@@ -134,7 +170,11 @@ def test_errors_are_pythons_own_in_the_commands_words(tmp_path, maps):
     (tmp_path / "lost.yaml").write_text((maps / "room.yaml").read_text())
     with pytest.raises(FileNotFoundError, match="and there is no file .*; write the path of the image") as refused:
         mi.read_map(tmp_path / "lost.yaml")
-    assert (refused.value.errno, refused.value.filename) == (errno.ENOENT, str(tmp_path / "lost.yaml"))
+    assert (refused.value.errno, refused.value.filename) == (errno.ENOENT, str(tmp_path / "room.pgm"))
+    # The file is there: an array of it is not.
+    np.savez(tmp_path / "a.npz", x=np.array([[0.25]]))
+    with pytest.raises(ValueError, match=r'a.npz:y: has no array "y"; it has x$'):
+        mi.read_map(tmp_path / "a.npz:y")
     with pytest.raises(MemoryError, match="raise it with max_cells if the file is meant"):
         mi.read_map(maps / "room.yaml", max_cells=5)
     (tmp_path / "cut.yaml").write_text("image: cut.pgm\nresolution: -1\n")

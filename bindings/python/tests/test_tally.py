@@ -59,7 +59,12 @@ def test_an_empty_tally_takes_what_numpy_takes_for_a_type():
     for dtype in ("float16", np.int8):
         with pytest.raises(ValueError, match="dtype is .*, allowed are float64 and float32"):
             mi.Tally(dtype)
-    for cells in (np.array([0.25, 0.5]), [0.25, 0.5], 0.25):
+    assert mi.Tally(np.float64(0.3).dtype).dtype == np.float64
+
+    class Column:
+        dtype = np.dtype(np.float32)
+
+    for cells in (np.array([0.25, 0.5]), [0.25, 0.5], 0.25, np.float64(0.3), Column(), mi.tally([0.25])):
         with pytest.raises(TypeError, match=r"tally\(cells\) measures an array"):
             mi.Tally(cells)
 

@@ -1,6 +1,6 @@
 //! NumPy's `.npz`: a zip archive of `.npy` files, by the crate `zip`, which also knows archives above 4 GiB.
 
-use crate::error::{Error, ErrorKind};
+use crate::error::{Error, ErrorKind, Place};
 use std::io::{self, Read, Seek};
 use std::path::Path;
 use zip::ZipArchive;
@@ -43,7 +43,8 @@ pub(crate) fn open<'a, R: Read + Seek>(
             return Err(refused.allowing("; needed is ", "one that np.savez wrote"));
         }
         (Some(key), _) => {
-            let refused = Error::new(ErrorKind::NotFound, format!("has no array {key:?}")).with_value(key);
+            let refused = Error::new(ErrorKind::Choice, format!("has no array {key:?}"));
+            let refused = refused.at(Place::Option("file")).with_value(key);
             return Err(refused.allowing("; it has ", listed(&names)));
         }
         (None, _) => {

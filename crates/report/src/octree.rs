@@ -141,8 +141,8 @@ pub struct MeasuredDepths {
 }
 
 impl MeasuredDepths {
-    /// Reads the tree at `path` of `source` and measures it at each depth: a cell has the mean occupancy of its finest cells, of which those in no
-    /// leaf are unknown.
+    /// Reads the tree at `path` of `source` and measures it at each depth: a cell has the mean occupancy of its finest cells,
+    /// of which those in no leaf are unknown.
     ///
     /// # Errors
     /// A file that is no octree.

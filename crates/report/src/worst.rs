@@ -11,8 +11,8 @@ use std::ops::Range;
 
 /// The units of entropy in a bit, by which squares are compared: sums of whole numbers are exact.
 const UNITS: f64 = (1_u64 << 40) as f64;
-/// The longest side of a square, for which sums of units stay below 2^64.
-pub const MAX_SIDE: usize = 4096;
+/// The longest side of a square, for which sums of units stay below 2^64: 4096² cells of a bit would reach it.
+pub const MAX_SIDE: usize = 4095;
 
 /// The cells and the square of a map that leave the most doubt.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,7 +22,7 @@ pub struct Worst {
     pub cells: Vec<[usize; 2]>,
     /// The number of observed cells whose entropy equals that of the first.
     pub equal: u64,
-    /// The square; `None` if no observed cell has entropy.
+    /// The square; `None` if no observed cell has an entropy of 2^-40 bit or more.
     pub square: Option<Square>,
 }
 
@@ -159,7 +159,7 @@ impl Squares {
         let mut sum: u64 = self.sums[..self.width].iter().sum();
         for column in 0..=self.sums.len() - self.width {
             if column > 0 {
-                sum = sum + self.sums[column + self.width - 1] - self.sums[column - 1];
+                sum = sum - self.sums[column - 1] + self.sums[column + self.width - 1];
             }
             if sum > self.best.map_or(0, |(largest, _)| largest) {
                 self.best = Some((sum, [row, column]));
@@ -223,6 +223,20 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// All cells at 1 bit, which the largest entropies are rounded to; sums that overflow panic.
+    #[test]
+    fn the_largest_square_of_doubt_has_a_sum() {
+        let bit = units(1.0);
+        let mut squares = Squares::new([MAX_SIDE + 1, usize::MAX], usize::MAX);
+        assert_eq!([squares.width, squares.height], [MAX_SIDE; 2]);
+        squares.sums.fill(MAX_SIDE as u64 * bit);
+        squares.sums[0] = 0;
+        squares.compare(7);
+        assert_eq!(squares.best, Some(((MAX_SIDE * MAX_SIDE) as u64 * bit, [7, 1])));
+        // One more does not fit.
+        assert_eq!((MAX_SIDE as u64 + 1).pow(2).checked_mul(bit), None);
     }
 
     #[test]

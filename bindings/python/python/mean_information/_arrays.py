@@ -22,7 +22,9 @@ _Array: TypeAlias = npt.NDArray[Any]
 def prepared(cells: npt.ArrayLike, encoding: str) -> _Array:
     """Return the cells as an array of the element type of their encoding; without a copy where they are one."""
     known(encoding)
-    if isinstance(cells, (str, bytes, os.PathLike)):
+    if isinstance(cells, (bytes, bytearray)):
+        raise TypeError(f"cells is {type(cells).__name__}, allowed is an array; np.frombuffer(cells, np.int8) makes one of bytes")
+    if isinstance(cells, (str, os.PathLike)):
         raise TypeError(f"cells is {cells!r}, allowed is an array; read_map({cells!r}).tally measures a file")
     array = np.asarray(cells)
     dtype = array.dtype
@@ -47,7 +49,7 @@ def refusal(dtype: np.dtype[Any], encoding: str) -> str | None:
         hint = {
             "b": "; np.where(cells, 100, 0) makes percentages",
             "f": "; cells.astype(np.int8) makes them integers, if they are whole numbers"
-            + ("; of others, cells / 100 are probabilities, if 0.5 stands for unknown" if encoding == "percent" else ""),
+            + ("; of others, np.where(cells == -1, 0.5, cells / 100) are probabilities" if encoding == "percent" else ""),
         }
         return None if dtype.kind in "iu" else f"encoding {encoding!r} takes integers, not {dtype}{hint.get(dtype.kind, '')}"
     if dtype.kind == "f":
@@ -63,16 +65,17 @@ def refusal(dtype: np.dtype[Any], encoding: str) -> str | None:
 
 
 def _as_bytes(array: _Array, encoding: str) -> _Array:
-    """Return integers as bytes: those of 8 bits as they are, wider ones by their values."""
-    if array.dtype.itemsize == 1:
-        return array if encoding == "percent" else array.view(np.int8)
+    """Return integers as bytes: int8, and uint8 of percentages, as they are, others by their values."""
+    if array.dtype == np.int8 or (array.dtype == np.uint8 and encoding == "percent"):
+        return array
     with np.errstate(all="ignore"):
         narrow = array.astype(np.int8)
     if not np.array_equal(narrow, array):
         index = tuple(map(int, np.argwhere(narrow != array)[0]))
         place = f"[{', '.join(map(str, index))}]" if index else ""
-        words = {"percent": "is a percentage from 0 to 100, or -1 for unknown", "mrpt": "are values of a byte, -128 to 127"}
-        raise ValueError(f"cells{place} is {array[index]}, allowed {words[encoding]}")
+        words = {"percent": "a percentage from 0 to 100, or -1 for unknown", "mrpt": "a byte, from -128 to 127"}[encoding]
+        mended = "; cells.view(np.int8) takes the bytes as MRPT does" if array.dtype.itemsize == 1 else ""
+        raise ValueError(f"cells{place} is {array[index]}, allowed is {words}{mended}")
     return narrow
 
 
@@ -94,9 +97,12 @@ def axes_of(axis: int | Sequence[int] | None, ndim: int) -> list[int] | None:
     """Return axes by their numbers from 0 on."""
     if axis is None:
         return None
-    given = [axis] if np.ndim(axis) == 0 else list(axis)  # type: ignore[arg-type]
     try:
-        given = [operator.index(one) for one in given]  # type: ignore[arg-type]
+        given = [operator.index(axis)]  # type: ignore[arg-type]
+    except TypeError:
+        given = []
+    try:
+        given = given or [operator.index(one) for one in axis]  # type: ignore[union-attr]
     except TypeError:
         raise TypeError(f"axis is {axis!r}, allowed are an integer, a sequence of integers, and None") from None
     for one in given:

@@ -12,6 +12,7 @@ from ._arrays import Encoding, known, refusal
 from ._native import Map
 
 _FOR = {
+    "semantics": ("image", "ROS maps"),
     "mode": ("image", "ROS maps"),
     "unknown": ("image array", "ROS maps and arrays of floats"),
     "encoding": ("array", "arrays, .npy and .npz; other files say it themselves"),
@@ -23,7 +24,7 @@ _FOR = {
 def read_map(
     path: str | PathLike[str],
     *,
-    semantics: Literal["nav2", "nav2-humble", "ros1"] = "nav2",
+    semantics: Literal["nav2", "nav2-humble", "ros1"] | None = None,
     mode: Literal["trinary", "scale", "raw", "probability"] | None = None,
     unknown: float | None = None,
     encoding: Encoding | None = None,
@@ -38,15 +39,15 @@ def read_map(
     path : path-like
         `.yaml` or `.yml`; `.npy`; `.npz` of one array, or ``FILE.npz:KEY``; `.gridmap` or `.gridmap.gz`; a bag: `.mcap`,
         `.db3`, `.bag`, or the folder of one.
-    semantics : {"nav2", "nav2-humble", "ros1"}
-        The loader whose rules turn the grey levels of a ROS map into percentages; other files have none.
+    semantics : {"nav2", "nav2-humble", "ros1"}, optional
+        The loader whose rules turn the grey levels of a ROS map into percentages, "nav2" by default; other files have none.
     mode : {"trinary", "scale", "raw", "probability"}, optional
         How grey levels of a ROS map are meant; the file's own mode by default.
     unknown : float, optional
         The value that means unknown: a grey level of a ROS map with mode "probability", or a number of an array of floats.
     encoding : {"probability", "percent", "log-odds", "mrpt"}, optional
         What the numbers of an `.npy` or `.npz` array are, as of `tally`: "probability" by default, whatever their type.
-        Other files say it themselves.
+        float16, which `tally` takes, is not read: save it as float32. Other files say it themselves.
     resolution : float, optional
         The side of a cell of an `.npy` or `.npz` array, in metres. Other files say it themselves.
     topic : str, optional
@@ -61,18 +62,18 @@ def read_map(
     Raises
     ------
     FileNotFoundError, OSError
-        If the file cannot be read; `errno` and `filename` are set as `open` sets them.
+        If the file, or the image that it names, cannot be read; `errno` and `filename` are set as `open` sets them.
     MemoryError
         If the map is too large.
     ValueError
-        If the file is damaged, or no map, in the words of the command; if an array's numbers are of a type that the encoding
-        does not have; if an argument is given that the kind of file has no use for.
+        If the file is damaged, or no map, or an archive without the array of that key, in the words of the command; if an
+        array's numbers are of a type that the encoding does not have; if an argument is given that the kind of file has no
+        use for.
     """
     if encoding is not None:
         known(encoding)
     kind, dtype = _native.kind_of_map(path)
-    given = {"mode": mode, "unknown": unknown, "encoding": encoding, "resolution": resolution, "topic": topic}
-    for name, value in given.items():
+    for name, value in zip(_FOR, (semantics, mode, unknown, encoding, resolution, topic), strict=True):
         kinds, its_files = _FOR[name]
         if value is not None and kind not in kinds.split():
             raise ValueError(f"{fspath(path)}: {name} is {value!r}, which is for {its_files}")

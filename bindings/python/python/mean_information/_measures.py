@@ -23,7 +23,7 @@ def tally(cells: npt.ArrayLike, *, encoding: Encoding = "probability", where: np
     encoding : {"probability", "percent", "log-odds", "mrpt"}
         What the numbers are; never guessed from their type. "probability": floats in [0, 1], 1/2 is unknown. "percent":
         integers 0 to 100 and -1 (or 255 in uint8) for unknown, as `nav_msgs/OccupancyGrid` has them. "log-odds": floats, in
-        nats. "mrpt": MRPT's bytes, 16 times the log-odds of being free.
+        nats. "mrpt": MRPT's bytes, integers -128 to 127, 16 times the log-odds of being free.
     where : array_like of bool, optional
         The cells that are measured; it is broadcast to the shape of `cells`.
 

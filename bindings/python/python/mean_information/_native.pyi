@@ -20,7 +20,7 @@ occupancy_from_log_odds: np.ufunc
 
 @final
 class Tally:
-    def __new__(cls, dtype: npt.DTypeLike | None = None) -> Tally: ...
+    def __new__(cls, dtype: str | type[Any] | np.dtype[Any] | None = None) -> Tally: ...
     @property
     def entropy(self) -> float: ...
     @property
@@ -231,7 +231,7 @@ def kind_of_map(path: str | PathLike[str]) -> tuple[Literal["image", "array", "b
 def read_map(
     path: str | PathLike[str],
     *,
-    semantics: str = "nav2",
+    semantics: str | None = None,
     mode: str | None = None,
     unknown: float | None = None,
     encoding: str | None = None,
@@ -247,7 +247,7 @@ def read_bag(
     max_cells: int | None = None,
 ) -> list[BagMap]: ...
 def read_scans(
-    path: str | PathLike[str], *, max_range: float | None = None, time: Literal["sent", "logged"] = "sent"
+    path: str | PathLike[str], *, max_range: float | None = None, time: Literal["sent", "logged"] | None = None
 ) -> ScanLog: ...
 def read_trajectory(path: str | PathLike[str]) -> Trajectory: ...
 def expected_map(

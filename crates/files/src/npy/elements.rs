@@ -149,17 +149,24 @@ pub(super) fn no_cell<E: Readable>(row: usize, column: usize, value: f64) -> Err
     Error::from(refused).followed_by(helping(E::ALLOWED == Probability::<f64>::ALLOWED, value))
 }
 
-/// Returns what may help with a value.
+/// Returns what may help with a value, and leaves -1 unknown whatever is done about others first.
 fn helping(is_probability: bool, value: f64) -> &'static str {
     match value {
         _ if value.is_nan() && is_probability => "; np.nan_to_num(p, nan=0.5) makes NaN unknown",
         _ if value.is_nan() => "; np.nan_to_num(l, nan=0.0) makes NaN unknown",
         100.0..=255.0 if value > 100.0 => "; (255 - g) / 255 makes probabilities of greys",
         _ if !is_probability => "",
-        -1.0 => "; np.where(p < 0, 0.5, p) makes -1 unknown",
-        -1e-6..=1.000001 => "; np.clip(p, 0, 1) cuts rounding off",
-        1.0..=100.0 if value.fract() == 0.0 => "; p / 100 makes probabilities of percentages",
-        1.0..=100.0 => "; p / 100 makes probabilities of percentages, 1 / (1 + np.exp(-l)) of log-odds",
+        -1.0 => {
+            "; np.where(p == -1, 0.5, p / 100) makes probabilities of percentages; among probabilities \
+             np.where(p == -1, 0.5, p) makes -1 unknown"
+        }
+        -1e-6..=1.000001 => "; np.where(p == -1, 0.5, np.clip(p, 0, 1)) cuts rounding off",
+        1.0..=100.0 if value.fract() == 0.0 => {
+            "; np.where(p == -1, 0.5, p / 100) makes probabilities of percentages"
+        }
+        1.0..=100.0 => {
+            "; np.where(p == -1, 0.5, p / 100) makes probabilities of percentages, 1 / (1 + np.exp(-l)) of log-odds"
+        }
         _ => "; 1 / (1 + np.exp(-l)) makes probabilities of log-odds",
     }
 }

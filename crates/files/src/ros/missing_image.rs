@@ -26,7 +26,7 @@ pub(super) fn missing_image(
     Error::new(ErrorKind::NotFound, message)
         .at(Place::Key("image"))
         .with_value(named)
-        .caused_by(cause)
+        .caused_by(cause.in_file(tried))
         .in_file(path)
 }
 

@@ -1,7 +1,9 @@
 //! Arrays as programs save them: other integers, unknown values, archives, and what makes them mean less than they seem.
 
 use crate::support::{Nobody, measure, percents, probabilities, read_twice, refusal, warnings};
-use mean_information_files::{ArrayEncoding, Contents, Options, Warning, read_map_contents, read_weights};
+use mean_information_files::{
+    ArrayEncoding, Contents, ErrorKind, Options, Warning, read_map_contents, read_weights,
+};
 use mean_information_test_support::formats::{Folder, npy};
 use std::io::{Cursor, Write};
 use std::path::Path;
@@ -77,7 +79,7 @@ fn refusals_give_the_line_of_python_that_helps() {
     for (bytes, options, words) in [
         (doubles(&[0.1, f64::NAN]), &Options::default(), "np.nan_to_num(p, nan=0.5)"),
         (doubles(&[0.1, f64::NAN]), &log_odds, "np.nan_to_num(l, nan=0.0)"),
-        (doubles(&[0.1, 50.0]), &Options::default(), "p / 100"),
+        (doubles(&[0.1, 50.0]), &Options::default(), "; np.where(p == -1, 0.5, p / 100) makes"),
         (doubles(&[0.1, 2.25]), &Options::default(), "1 / (1 + np.exp(-l)) of log-odds"),
         (doubles(&[0.1, 205.0]), &Options::default(), "(255 - g) / 255"),
         (npy("'<f8'", false, "()", &[0; 8]), &Options::default(), "p.reshape(rows, columns)"),
@@ -96,7 +98,7 @@ fn refusals_give_the_line_of_python_that_helps() {
         (b"\x01\x02\x03\x04".to_vec(), &Options::default(), "np.save('p.npy', p) writes one"),
         (doubles(&[0.1, 0.2])[..140].to_vec(), &Options::default(), "it is cut short; copy or save it again"),
         (doubles(&[0.1, 0.2]).repeat(2), &Options::default(), "more follows; save one array by itself"),
-        (doubles(&[0.1, -1.0]), &Options::default(), "np.where(p < 0, 0.5, p)"),
+        (doubles(&[0.1, -1.0]), &Options::default(), "np.where(p == -1, 0.5, p / 100) makes"),
         (doubles(&[0.1, 1.0000000000000002]), &Options::default(), "np.clip(p, 0, 1)"),
         (doubles(&[0.1, -3.5]), &Options::default(), "1 / (1 + np.exp(-l))"),
         (npy("'<f2'", false, "(1, 1)", &[0, 0]), &Options::default(), "p.astype('f8')"),
@@ -187,7 +189,10 @@ fn an_array_of_an_archive_is_named_by_its_key() {
         assert_eq!(read_weights(&key("w"), &Options::default()).unwrap(), [0.5, 0.25]);
         let refused = read_twice(&path, &Options::default()).unwrap_err().to_string();
         assert!(refused.contains("holds 2 arrays; name one, as FILE.npz:KEY; it has "), "{refused}");
-        let refused = read_twice(&key("p"), &Options::default()).unwrap_err().to_string();
+        let refused = read_twice(&key("p"), &Options::default()).unwrap_err();
+        // The file is there.
+        assert_eq!(refused.kind(), ErrorKind::Choice);
+        let refused = refused.to_string();
         assert!(refused.contains("both.npz:p: has no array \"p\""), "{refused}");
         let one = folder.write("one.npz", npz(&[("map", &map)], method));
         assert_eq!(probabilities(&read_twice(&one, &Options::default()).unwrap()), [0.25, 0.5, 1.0]);

@@ -5,7 +5,7 @@
 
 use super::integers::ball::Ball;
 use super::root::square_root;
-use super::round::{FixedEnclosure, Midpoint, round_integer};
+use super::round::{FixedEnclosure, Midpoint, Rounded, round_integer};
 use super::ziv::{normalised, round_to_nearest};
 use crate::real::Real;
 use core::cmp::Ordering;
@@ -96,6 +96,25 @@ pub(crate) fn distance<T: Real>(step: T, scale: i32, x: Coordinate, y: Coordinat
     let m_wide = u128::from(m);
     let value = FixedEnclosure { lo: root * m_wide, width: 3 * m_wide, exponent: large.exponent + 64 + e };
     round_to_nearest(value, |midpoint| rounds_up(m, e, large, small, midpoint))
+}
+
+/// Computes `step 2^scale √square`, correctly rounded, if 64 bits of the root decide it, for a positive finite step.
+#[inline]
+pub(crate) fn distance_by_square<T: Real>(step: T, scale: i32, square: u128) -> Option<T> {
+    if square == 0 {
+        return Some(T::zero());
+    }
+    let (m, e) = normalised(step);
+    // By an even number of bits, so that the root has 64.
+    let shift = square.leading_zeros() & !1;
+    let root = u128::from(square_root(square << shift));
+    let m = u128::from(m);
+    // The root is its floor, or less than one more.
+    let value = FixedEnclosure { lo: root * m, width: m, exponent: e + scale - (shift / 2) as i32 };
+    match value.round() {
+        Rounded::Decided(distance) => Some(distance),
+        Rounded::Between { .. } => None,
+    }
 }
 
 /// Returns true if `m 2^e √(x^2 + y^2)` rounds to the float above the midpoint: compares the squares, exactly.

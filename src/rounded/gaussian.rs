@@ -6,7 +6,8 @@
 use super::compare;
 use super::fixed::{EXP_ERROR, exp_neg, mul_high, reciprocal, shift_right};
 use super::integers::ball::Ball;
-use super::round::FixedEnclosure;
+use super::round::{FixedEnclosure, Rounded};
+use super::short_gaussian::short_gaussian;
 use super::ziv::{normalised, round_to_nearest};
 use crate::real::Real;
 
@@ -15,8 +16,11 @@ pub(crate) fn gaussian<T: Real>(x: T, z: T, s: T) -> T {
     if x == z {
         return T::one();
     }
-    // In units of s = m 2^-52.
     let (m, e) = normalised(s);
+    if let Some(Rounded::Decided(p)) = short_gaussian(x, z, m, e).map(FixedEnclosure::round) {
+        return p;
+    }
+    // In units in which s = m 2^-52.
     let distance = Distance::new(x, z, -52 - e);
     let (d, exponent) = distance.cut();
     let Some(r) = half_square(d, exponent, m) else {

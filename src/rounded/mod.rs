@@ -23,6 +23,7 @@
 //! | `ziv` | the three steps joined, and how arguments are taken apart |
 //! | `approximate` | the enclosures (step 1) |
 //! | `compare` | the comparisons with a midpoint (step 3) |
+//! | `short_gaussian` | the enclosure of the Gaussian in 64 bits |
 //! | `cell`, `elementary`, `log_odds`, `gaussian`, `distance`, `fusion` | the functions that the crate calls |
 //! | `beyond_float`, `wide_elementary` | step 1 at arguments of 63 and of 128 bits |
 //! | `angle` | cosine and sine of an angle in turns |
@@ -46,12 +47,13 @@ pub(crate) mod lanes;
 mod log_odds;
 mod root;
 mod round;
+mod short_gaussian;
 pub(crate) mod wide_elementary;
 mod ziv;
 
 pub(crate) use angle::{cos_sin, short_cos_sin, short_turns, turns};
 pub(crate) use cell::{CellEnclosures, occupancy_from_log_odds};
-pub(crate) use distance::{Coordinate, distance, multiple};
+pub(crate) use distance::{Coordinate, distance, distance_by_square, multiple};
 pub(crate) use elementary::{exp, ln};
 pub(crate) use fixed::{horner, mul_high, reciprocal, shift_right};
 pub(crate) use fusion::fused;

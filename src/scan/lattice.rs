@@ -2,7 +2,7 @@
 
 use super::direction::Direction;
 use crate::real::Real;
-use crate::rounded::{Coordinate, distance, normalised};
+use crate::rounded::{Coordinate, distance, distance_by_square, normalised};
 
 /// The number of units of a cell's side, as an exponent of two.
 pub(super) const FRACTION: u32 = 28;
@@ -149,6 +149,14 @@ impl Lattice {
     /// Computes the distance in metres of a point from the centre of a cell: the nearest float, ties to even.
     #[inline]
     pub(super) fn distance_to_centre(self, from: Point, cell: [i64; 2]) -> f64 {
+        let square = Self::square_to_centre(from, cell);
+        distance_by_square(self.resolution, -(FRACTION as i32), square)
+            .unwrap_or_else(|| self.distance_exactly(from, cell))
+    }
+
+    /// Finds what [`distance_to_centre`](Self::distance_to_centre) does where 64 bits of the root do not decide it.
+    #[cold]
+    fn distance_exactly(self, from: Point, cell: [i64; 2]) -> f64 {
         let [x, y] = offset_of_centre(from, cell).map(|offset| {
             Coordinate::new(offset >> FRACTION, (offset & ((1 << FRACTION) - 1)) as f64 / UNITS)
         });
@@ -265,6 +273,21 @@ mod tests {
             let exact = if shift >= 0 { square << shift } else { square >> -shift };
             let error: BigInt = if found > exact { &found - &exact } else { &exact - &found };
             prop_assert!(error << 51 <= exact * 2_u32, "{rho}");
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(10_000))]
+
+        /// The bits of the distance by its two coordinates, of short and of long ones and of triples as 3, 4, 5, too.
+        #[test]
+        fn distances_are_those_by_coordinates(x in -1_i64 << 60..1 << 60, y in -1_i64 << 60..1 << 60, shift in 0_u32..61, k in 0_i64..9, resolution in prop_oneof![0.001_f64..10.0, Just(0.25), Just(0.05), Just(1e-300), Just(f64::from_bits(77))]) {
+            let lattice = Lattice::new(resolution);
+            let unit = 1_i64 << (shift / 2);
+            let half = 1 << (FRACTION - 1);
+            for from in [[x >> shift, y >> shift], [half - 3 * k * unit, half + 4 * k * unit]] {
+                prop_assert_eq!(lattice.distance_to_centre(from, [0, 0]), lattice.distance_exactly(from, [0, 0]));
+            }
         }
     }
 

@@ -22,6 +22,7 @@ mod codes;
 mod columns;
 mod counts;
 mod direction;
+mod distances;
 mod ends;
 mod fans;
 mod inserted;

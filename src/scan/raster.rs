@@ -135,6 +135,13 @@ impl<C: Copy> Raster<C> {
         start..start + area.size()[0]
     }
 
+    /// Returns the cell that is stored at an index.
+    #[inline]
+    pub(super) fn cell_at(&self, index: usize) -> [i64; 2] {
+        let [columns, _] = self.area.size();
+        [self.area.low[0] + (index % columns) as i64, self.area.low[1] + (index / columns) as i64]
+    }
+
     /// Returns the part of a row that lies in `area`, which the raster must hold.
     pub(super) fn row(&self, area: Area, row: i64) -> &[C] {
         &self.cells[self.range(area, row)]
@@ -224,6 +231,17 @@ impl<C: Copy + PartialEq> Raster<C> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_cell_is_found_again_by_its_place() {
+        let area = Area::of_cell([-7, 3]).union(Area::of_cell([4, 9]));
+        let raster = Raster::new(area, 0, u64::MAX).unwrap();
+        for row in area.rows() {
+            for column in -7..5 {
+                assert_eq!(raster.cell_at(raster.index([column, row])), [column, row]);
+            }
+        }
+    }
 
     /// Cell by cell in each direction: the side grows by half each time, so that all copies together cost a few times the
     /// last one.

@@ -3,6 +3,7 @@
 
 use super::beams::{Beam, Scan};
 use super::columns::{Canvas, Shared, Track};
+use super::distances::Distances;
 use super::ends::Ends;
 use super::fans::{is_clockwise, shares};
 use super::inserted::Print;
@@ -152,9 +153,10 @@ impl<T: Real, M: InverseSensorModel<Float = T>> Rays<M> {
         let refused = |_| Error::too_many_cells(self.area.cells(), max_cells);
         let tracks = self.tracks(free).map_err(refused)?;
         let shared = self.shared(&tracks, &drafts.canvas).map_err(refused)?;
+        let mut distances = Distances::new(self.lattice, self.start);
         for (index, ((segment, track), shared)) in self.segments.iter().zip(&tracks).zip(shared).enumerate() {
             for cell in track.draw(shared, &mut drafts.canvas) {
-                let p = self.occupancy(segment, cell);
+                let p = self.occupancy(segment, cell, &mut distances);
                 if !cell::in_unit_interval(p) {
                     let what = "occupancy by the model of beam";
                     return Err(Error::Item { what, index, value: p.widen(), allowed: "0 to 1" });
@@ -211,7 +213,7 @@ impl<T: Real, M: InverseSensorModel<Float = T>> Rays<M> {
     /// Returns what a beam says of a cell that it crosses: what its model says at the distance of the centre. Where the model is
     /// level, nobody needs the distance (`scan.md`, "What a beam says of a cell").
     #[inline]
-    fn occupancy(&self, segment: &Segment<M>, cell: [i64; 2]) -> T {
+    fn occupancy(&self, segment: &Segment<M>, cell: [i64; 2], distances: &mut Distances<T>) -> T {
         let square = Lattice::square_to_centre(self.start, cell);
         let [near, far] = segment.obstacle;
         if square <= u128::from(segment.plateau) * u128::from(segment.plateau) {
@@ -221,8 +223,7 @@ impl<T: Real, M: InverseSensorModel<Float = T>> Rays<M> {
         } else if square > segment.reach {
             T::HALF
         } else {
-            // The nearest float on the lattice, in f32 rounded once more.
-            segment.model.occupancy(T::nearest(self.lattice.distance_to_centre(self.start, cell)))
+            segment.model.occupancy(distances.of_centre(cell))
         }
     }
 }

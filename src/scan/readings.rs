@@ -121,7 +121,6 @@ pub(super) struct Drafts<T> {
 #[derive(Clone, Copy)]
 struct Other<T> {
     index: usize,
-    cell: [i64; 2],
     p: T,
 }
 
@@ -144,7 +143,7 @@ impl<T: Real> Drafts<T> {
             *level = p;
         }
         if p != *level {
-            self.others.push(Other { index, cell, p });
+            self.others.push(Other { index, p });
         } else if p > T::HALF {
             self.occupied.push(index);
         } else {
@@ -164,7 +163,7 @@ impl<T: Real> Drafts<T> {
         let mut last = (T::HALF, 0);
         let mut others = Vec::new();
         for alike in self.others.chunk_by(|a, b| a.index == b.index) {
-            let Other { index, cell, .. } = alike[0];
+            let index = alike[0].index;
             let level = match codes.at(index) {
                 NOTHING => T::HALF,
                 code => self.levels[usize::from(code - FREE)],
@@ -176,7 +175,7 @@ impl<T: Real> Drafts<T> {
                 if p != last.0 {
                     last = (p, limit.reading(p));
                 }
-                others.push(Reading { cell, log_odds: last.1 });
+                others.push(Reading { cell: codes.cell_at(index), log_odds: last.1 });
             }
         }
         let levels = self.levels.map(|p| if p.is_nan() { 0 } else { limit.reading(p) });

@@ -286,9 +286,9 @@ MUTATIONS = [
                  ("r = rnd(rnd(k * -LN_2_LOW) + rnd(a - rnd(k * LN_2_HIGH)));", "r = rnd(rnd(k * -LN_2_HIGH) + a);"),
                  ("r = rnd(k * -LN_2_LOW + rnd(a - rnd(k * LN_2_HIGH)));", "r = rnd(k * -LN_2_HIGH + a);"))),
     ("lanes of log-odds: 1 / (1 + e) by the other polynomial, in both", "log_odds_f32.gappa",
-     of_log_odds(SINGLE, ("inverse, horner::<FUSED, _>(&LOG, e))", "inverse, inverse)"),
-                 *[("inverse) + horner_LOG));", "inverse) + inverse));"), ("inverse + horner_LOG));", "inverse + inverse));")])
-     + [(f"proofs/log_odds_f32{fused}.gappa", "\nhorner_LOG = ", "\n# Not used.\nhorner_LOG = ") for fused in ("", "_fused")]),
+     of_log_odds(SINGLE, ("inverse, horner::<FUSED, _>(&LOG, e))", "horner::<FUSED, _>(&LOG, e), inverse)"),
+                 ("rnd(rnd(a * LOG2_E) * inverse) + horner_LOG));", "rnd(rnd(a * LOG2_E) * horner_LOG) + inverse));"),
+                 ("rnd(a * LOG2_E) * inverse + horner_LOG));", "rnd(a * LOG2_E) * horner_LOG + inverse));"))),
     ("lanes/log_odds/double.rs alone: a_7 for a_6", "source", [(DOUBLE, "fused(h, a7, a6)", "fused(h, a6, a7)")]),
     ("lanes/log_odds/single.rs alone: a smaller ERROR", "source", [(SINGLE, "f64 = 4e-12", "f64 = 3.9e-12")]),
     ("lanes/log_odds/polynomials.rs alone: a digit", "source",

@@ -6,8 +6,8 @@
 `proofs/lanes.sollya` and `proofs/log_odds_regions.sollya` certify the ranges of a region, which take the place of REGION in a
 script; VALUE is the name of the value. The kernel of occupancies without entropies has no complements: there the goals that
 speak of them are left out, and so is a goal that ends with `# of` other values. Prints the first region that fails, and ends
-with status 1 then. With `--every` only each N-th region runs, the first and the last among them. REGIONS may be a file of
-what both write.
+with status 1 then. With `--every` only each N-th region runs, the first and the last among them, of a script that has 32 or more;
+an odd N, as lower and upper halves alternate. REGIONS may be a file of what both write.
 """
 
 import argparse
@@ -65,8 +65,9 @@ def main():
     for path in arguments.scripts:
         script = path.read_text()
         all_of_it = [region for region in ranges if path.stem.startswith(region[0])]
+        every = arguments.every if len(all_of_it) >= 32 else 1
         last = len(all_of_it) - 1
-        chosen = [region for k, region in enumerate(all_of_it) if k % arguments.every == 0 or k == last]
+        chosen = [region for k, region in enumerate(all_of_it) if k % every == 0 or k == last]
         with ThreadPoolExecutor(2) as pool:
             results = pool.map(lambda region: failure(script, *region), chosen)
             first = next((said for said in results if said), None)

@@ -106,7 +106,7 @@ pub(crate) fn short_cos_sin(turns: u64) -> [f64; 2] {
     }
 }
 
-/// The number `π / 2` in units of scale 62, as a float.
+/// The radians of `2^-64` of a turn, as a float: `π / 2` times `2^-62`.
 const SHORT_HALF_PI: f64 = HALF_PI as f64 / (1_u128 << 126) as f64 / (1_u64 << 62) as f64;
 
 /// The [`MIDDLES`] as floats.

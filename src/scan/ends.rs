@@ -7,6 +7,8 @@ use crate::rounded::{short_cos_sin, short_turns, turns};
 /// Where beams of one scan begin, and the heading, in turns modulo 1 in units of `2^-128`.
 pub(super) struct Ends {
     lattice: Lattice,
+    /// The number of units of a metre.
+    units: f64,
     start: Point,
     heading: u128,
 }
@@ -14,7 +16,7 @@ pub(super) struct Ends {
 impl Ends {
     /// Begins at a place with a heading in radians.
     pub(super) fn new(lattice: Lattice, start: Point, heading: f64) -> Self {
-        Self { lattice, start, heading: turns(heading) }
+        Self { lattice, units: lattice.units(), start, heading: turns(heading) }
     }
 
     /// Finds where a beam of so many metres ends whose bearing (radians) is measured from the heading; `None` beyond the lattice.
@@ -22,7 +24,7 @@ impl Ends {
     #[inline]
     pub(super) fn end(&self, bearing: f64, length: f64) -> Option<(Point, f64)> {
         let [cos, sin] = short_cos_sin(((self.heading >> 64) as u64).wrapping_add(short_turns(bearing)));
-        let scale = length * self.lattice.units();
+        let scale = length * self.units;
         let end = match [cos, sin].map(|part| decided(scale * part, scale)) {
             [Some(x), Some(y)] => Lattice::moved(self.start, [x, y]),
             _ => self.exactly(bearing, length),
@@ -44,11 +46,11 @@ impl Ends {
 fn decided(x: f64, scale: f64) -> Option<i64> {
     // Floats from here on are integers, and a sum is rounded to one.
     const INTEGERS: f64 = 1.5 * (1_u64 << 52) as f64;
-    let nearest = (x + INTEGERS) - INTEGERS;
+    let nearest = ((x + INTEGERS) - INTEGERS) as i64;
     let error = scale * (1.0 / (1_u64 << 49) as f64) + 1.0 / 1024.0;
-    // An error of less than 1/8 where it is true; not so for NaN.
-    let is_decided = scale < (1_u64 << 45) as f64 && (x - nearest).abs() < 0.5 - error;
-    is_decided.then_some(nearest as i64)
+    // An error of less than 1/8 where it is true; not so for NaN. Compared with the integer, as units of more bits round no sum to one.
+    let is_decided = scale < (1_u64 << 45) as f64 && (x - nearest as f64).abs() < 0.5 - error;
+    is_decided.then_some(nearest)
 }
 
 #[cfg(test)]

@@ -1,21 +1,26 @@
 //! Neighbouring beams of a scan, which share cells near the sensor: between the first and the last of a fan all cells are free, as
 //! far as each is less than a cell from the next.
 
+use super::beams::Beam;
 use super::columns::{Shared, Track};
-use alloc::vec::Vec;
+
+/// Tells whether bearings fall from beam to beam in more than half of all steps: a scan that is stored across `±π` goes back once.
+pub(super) fn is_clockwise<T>(beams: &[Beam<T>]) -> bool {
+    let falls = beams.windows(2).filter(|pair| pair[0].bearing > pair[1].bearing).count();
+    // A step less than beams.
+    2 * falls >= beams.len()
+}
 
 /// Finds what each beam of a scan shares with its neighbours. Bearings rise from beam to beam, or fall, or are in any order: what is
 /// found is right, and less.
-pub(super) fn shares(tracks: &[Track], is_clockwise: bool) -> Vec<Shared> {
-    let mut fans = Fans::new(is_clockwise);
-    let mut shares = Vec::with_capacity(tracks.len());
-    let mut before = 0;
-    for (k, track) in tracks.iter().enumerate() {
+pub(super) fn shares(tracks: &[Track], is_clockwise: bool) -> impl Iterator<Item = Shared> {
+    let (mut fans, mut before) = (Fans::new(is_clockwise), 0);
+    tracks.iter().enumerate().map(move |(k, track)| {
         let after = tracks.get(k + 1).map_or(0, |next| fans.shared(track, next));
-        shares.push([before.min(after), before.max(after)]);
+        let shared = [before.min(after), before.max(after)];
         before = after;
-    }
-    shares
+        shared
+    })
 }
 
 /// The fans of a scan, one for each quarter of a turn, which is swept once: beams of a second sweep share nothing.
@@ -73,6 +78,7 @@ mod tests {
     use super::super::raster::Area;
     use super::super::traversal::{Traversal, cell_of};
     use super::*;
+    use alloc::vec::Vec;
     use proptest::collection::vec;
     use proptest::prelude::*;
     use std::collections::BTreeSet;
@@ -138,6 +144,18 @@ mod tests {
         }
     }
 
+    /// Those of a scan that begins behind the sensor, in `[-π, π)`, turn as the others do.
+    #[test]
+    fn bearings_that_go_on_at_the_other_end_keep_their_sense() {
+        let turned =
+            |k: i32| Beam { bearing: f64::from((k + 540) % 720 - 360).to_radians() / 2.0, range: Some(1.0) };
+        let mut beams: Vec<_> = (0..720).map(turned).collect();
+        assert!(beams[0].bearing > beams[719].bearing, "by the first and the last alone");
+        assert!(!is_clockwise(&beams) && !is_clockwise(&beams[..1]));
+        beams.reverse();
+        assert!(is_clockwise(&beams) && is_clockwise(&beams[..2]));
+    }
+
     /// A scanner of half a turn at a quarter of a degree: near the sensor a beam has nothing to mark.
     #[test]
     fn dense_beams_share_nearly_all_columns() {
@@ -157,7 +175,7 @@ mod tests {
                 (shared, all) = (shared + both, all + track.sure_columns());
             }
             assert!(shared * 100 > all * 98, "{shared} of {all}");
-            assert!(shares(&tracks, !is_clockwise).iter().all(|&shared| shared == [0, 0]));
+            assert!(shares(&tracks, !is_clockwise).all(|shared| shared == [0, 0]));
         }
     }
 }

@@ -12,8 +12,9 @@
 //! | [`Layer`] | a number for each cell of a finished map, at a place in the world |
 //! | [`Grid`](crate::map::Grid) | a finished map: cells in an encoding, at a place in the world |
 //!
-//! And on the way from a scan to its map: `Rays` are its beams on the lattice, `Readings` are what it says of the cells,
-//! `Sums` is what the map stores, as `Counts` or as `Totals`, `Inserted` which scans it holds.
+//! And on the way from a scan to its map: `Rays` are its beams on the lattice, which `Ends` finds. A beam's cells are a `Track`,
+//! drawn on a `Canvas` column by column; what neighbours share, `Fans` finds, and it is drawn once, as `Stretches`. `Readings` are
+//! what the scan says of the cells, `Sums` is what the map stores, as `Counts` or as `Totals`, `Inserted` which scans it holds.
 
 mod agreement;
 mod beams;

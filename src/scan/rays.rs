@@ -2,10 +2,10 @@
 //! at the distance of each cell's centre, once for each cell.
 
 use super::beams::{Beam, Scan};
-use super::columns::Track;
+use super::columns::{Canvas, Shared, Track};
 use super::distances::Distances;
 use super::ends::Ends;
-use super::fans::shares;
+use super::fans::{is_clockwise, shares};
 use super::inserted::Print;
 use super::lattice::{FRACTION, Lattice, Point};
 use super::raster::Area;
@@ -15,7 +15,7 @@ use crate::cell;
 use crate::error::Error;
 use crate::real::Real;
 use crate::sensor::InverseSensorModel;
-use alloc::vec;
+use alloc::collections::TryReserveError;
 use alloc::vec::Vec;
 
 /// The beams of one scan as segments from one point.
@@ -26,7 +26,7 @@ pub(super) struct Rays<M: InverseSensorModel> {
     /// The rectangle that holds the cells of the start and of all ends.
     area: Area,
     segments: Vec<Segment<M>>,
-    /// True if bearings fall from beam to beam, as far as the first and the last tell.
+    /// True if bearings mostly fall from beam to beam.
     is_clockwise: bool,
 }
 
@@ -64,7 +64,7 @@ impl<T: Real, M: InverseSensorModel<Float = T>> Rays<M> {
         let start = start(lattice, scan)?;
         let area = Area::of_cell(cell_of(start));
         let beams = scan.beams();
-        let is_clockwise = beams.first().zip(beams.last()).is_some_and(|(a, b)| a.bearing > b.bearing);
+        let is_clockwise = is_clockwise(beams);
         let segments = Vec::with_capacity(beams.len());
         let mut rays = Self { lattice, limit, start, area, segments, is_clockwise };
         // That of the exact sum of heading and bearing.
@@ -148,23 +148,13 @@ impl<T: Real, M: InverseSensorModel<Float = T>> Rays<M> {
     /// # Errors
     /// [`Error::Item`] naming a beam whose model gives no occupancy; [`Error::TooManyCells`] if there is no memory.
     pub(super) fn readings(&self, max_cells: u64) -> Result<Readings, Error> {
-        let is_free = |segment: &&Segment<M>| {
-            segment.sure > 0 && segment.nearest < T::HALF && cell::in_unit_interval(segment.nearest)
-        };
-        let free = self.segments.iter().find(is_free).map_or(T::nan(), |segment| segment.nearest);
+        let free = self.free();
         let mut drafts = Drafts::new(self.area, free, max_cells)?;
-        let track = |segment: &Segment<M>| {
-            let sure = if segment.nearest == free { segment.sure } else { 0 };
-            Track::new(self.start, segment.end, sure)
-        };
-        let tracks: Vec<Track> = self.segments.iter().map(track).collect();
-        let shares = if drafts.canvas.is_shared() {
-            shares(&tracks, self.is_clockwise)
-        } else {
-            vec![[0; 2]; tracks.len()]
-        };
+        let refused = |_| Error::too_many_cells(self.area.cells(), max_cells);
+        let tracks = self.tracks(free).map_err(refused)?;
+        let shared = self.shared(&tracks, &drafts.canvas).map_err(refused)?;
         let mut distances = Distances::new(self.lattice, self.start);
-        for (index, ((segment, track), shared)) in self.segments.iter().zip(&tracks).zip(shares).enumerate() {
+        for (index, ((segment, track), shared)) in self.segments.iter().zip(&tracks).zip(shared).enumerate() {
             for cell in track.draw(shared, &mut drafts.canvas) {
                 let p = self.occupancy(segment, cell, &mut distances);
                 if !cell::in_unit_interval(p) {
@@ -178,6 +168,46 @@ impl<T: Real, M: InverseSensorModel<Float = T>> Rays<M> {
             }
         }
         Ok(drafts.readings(&self.limit))
+    }
+
+    /// Returns the occupancy with which free cells are drawn: that of the first beam that has such cells; NaN if none has.
+    fn free(&self) -> T {
+        let is_free = |segment: &&Segment<M>| {
+            segment.sure > 0 && segment.nearest < T::HALF && cell::in_unit_interval(segment.nearest)
+        };
+        self.segments.iter().find(is_free).map_or(T::nan(), |segment| segment.nearest)
+    }
+
+    /// Measures the beams, whose sure cells are those at the occupancy `free`.
+    fn tracks(&self, free: T) -> Result<Vec<Track>, TryReserveError> {
+        let track = |segment: &Segment<M>| {
+            let sure = if segment.nearest == free { segment.sure } else { 0 };
+            Track::new(self.start, segment.end, sure)
+        };
+        let mut tracks = Vec::new();
+        tracks.try_reserve_exact(self.segments.len())?;
+        tracks.extend(self.segments.iter().map(track));
+        Ok(tracks)
+    }
+
+    /// Finds what each beam shares with its neighbours on a canvas.
+    fn shared(&self, tracks: &[Track], canvas: &Canvas) -> Result<Vec<Shared>, TryReserveError> {
+        let mut shared = Vec::new();
+        shared.try_reserve_exact(tracks.len())?;
+        if canvas.is_shared() {
+            shared.extend(shares(tracks, self.is_clockwise));
+        }
+        shared.resize(tracks.len(), [0; 2]);
+        Ok(shared)
+    }
+
+    /// Counts the columns that beams share with both of their neighbours, in which they mark nothing.
+    #[cfg(test)]
+    pub(super) fn shared_columns(&self) -> u64 {
+        let free = self.free();
+        let canvas = Canvas::new(self.area, u64::MAX).expect("a small map");
+        let shared = self.tracks(free).and_then(|tracks| self.shared(&tracks, &canvas)).expect("few beams");
+        shared.iter().map(|[both, _]| both).sum()
     }
 
     /// Returns what a beam says of a cell that it crosses: what its model says at the distance of the centre. Where the model is

@@ -5,6 +5,7 @@ use super::beams::{Beam, Scan};
 use super::direction::Direction;
 use super::lattice::Lattice;
 use super::pose::Pose;
+use super::rays::Rays;
 use super::scan_map::ScanMap;
 use super::traversal::Traversal;
 use crate::error::Error;
@@ -13,8 +14,10 @@ use crate::rounded::fixed_log_odds;
 use crate::sensor::{GaussianSensor, InverseSensorModel, SteppedSensor};
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
+use core::cell::Cell;
 use proptest::collection::vec;
 use proptest::prelude::*;
+use proptest::test_runner::TestRunner;
 
 /// The sum of the readings of each cell, and that of their magnitudes.
 type Sums = BTreeMap<[i64; 2], (i128, i128)>;
@@ -74,6 +77,28 @@ fn scans() -> impl Strategy<Value = Vec<Scan<f64>>> {
     vec(scan, 1..4)
 }
 
+/// A scan of neighbours that share cells: 70 beams or more at half a degree to two, up to 3 m and mostly far, with some of no return.
+fn dense() -> impl Strategy<Value = Scan<f64>> {
+    let step =
+        prop_oneof![Just(1.0), 0.5_f64..2.0].prop_flat_map(|step| prop_oneof![Just(step), Just(-step)]);
+    let fan = (-180.0_f64..180.0, step, 1.0_f64..3.0, 0.0_f64..0.6, 70_u32..110);
+    let place = || prop_oneof![-2.0_f64..2.0, (-8_i32..8).prop_map(|k| f64::from(k) * 0.25)];
+    (place(), place(), -4.0_f64..4.0, fan).prop_map(|(x, y, theta, (from, step, range, rough, count))| {
+        let beam = |k: u32| {
+            let part = (f64::from(k) * 0.618_033_988_749_894_9).fract();
+            let bearing = (from + f64::from(k) * step + 180.0).rem_euclid(360.0) - 180.0;
+            let range = (k % 23 != 22).then_some(range * (1.0 - rough * part));
+            Beam { bearing: bearing.to_radians(), range }
+        };
+        Scan::new(Pose::new(x, y, theta).unwrap(), 3.25, (0..count).map(beam).collect()).unwrap()
+    })
+}
+
+/// Sides of cells of which most near the sensor are shared, and limits.
+fn fine() -> impl Strategy<Value = [f64; 2]> {
+    [prop_oneof![Just(0.025), 0.02_f64..0.03].boxed(), prop_oneof![Just(3.5), 0.2_f64..40.0].boxed()]
+}
+
 /// Sides of cells, with which many beams go through corners, and limits.
 fn setting() -> impl Strategy<Value = [f64; 2]> {
     let side = prop_oneof![Just(0.25), Just(0.0625), 0.05_f64..0.6];
@@ -122,6 +147,21 @@ fn compare<T: Real>(map: &ScanMap<T>, sums: &Sums) -> Result<(), TestCaseError> 
     Ok(())
 }
 
+/// Compares maps of dense scans of two levels and of Eq. 5 with the reference; returns how many columns neighbours share.
+fn check_shared(
+    scan: &Scan<f64>,
+    setting: [f64; 2],
+    stepped: impl Fn(f64) -> Result<SteppedSensor<f64>, Error>,
+    smooth: impl Fn(f64) -> Result<GaussianSensor<f64>, Error>,
+) -> Result<u64, TestCaseError> {
+    check(std::slice::from_ref(scan), setting, 0, &stepped)?;
+    check(std::slice::from_ref(scan), setting, 0, &smooth)?;
+    let map = ScanMap::<f64>::new(setting[0])?.with_reading_limit(setting[1])?;
+    let stepped = Rays::new(map.lattice, map.limit, scan, stepped)?.shared_columns();
+    let smooth = Rays::new(map.lattice, map.limit, scan, smooth)?.shared_columns();
+    Ok(stepped.min(smooth))
+}
+
 fn single(scan: &Scan<f64>) -> Scan<f32> {
     let beam = |beam: &Beam<f64>| Beam { bearing: beam.bearing, range: beam.range.map(|range| range as f32) };
     Scan::new(*scan.pose(), 3.25, scan.beams().iter().map(beam).collect()).unwrap()
@@ -158,4 +198,23 @@ proptest! {
         let scans: Vec<_> = scans.iter().map(single).collect();
         check(&scans, setting, removed, |range| GaussianSensor::new(range, sigma as f32))?;
     }
+}
+
+/// What neighbours share is drawn once; of nearly all scans it is most of the columns near the sensor.
+#[test]
+fn dense_scans_are_those_of_the_reference() {
+    let (cases, shared) = (12, Cell::new([0; 2]));
+    let strategy = (dense(), fine(), 0.05_f64..0.3, prop_oneof![0.0..0.49, Just(0.25)], 0.005_f64..0.1);
+    let mut runner = TestRunner::new(ProptestConfig::with_cases(cases));
+    let outcome = runner.run(&strategy, |(scan, setting, thickness, free, sigma)| {
+        let stepped = |range| SteppedSensor::new(range, thickness, free, 0.875);
+        let columns = check_shared(&scan, setting, stepped, |range| GaussianSensor::new(range, sigma))?;
+        let [scans, all] = shared.get();
+        shared.set([scans + u64::from(columns > 0), all + columns]);
+        Ok(())
+    });
+    outcome.unwrap();
+    let [scans, columns] = shared.get();
+    assert!(scans * 4 > u64::from(cases) * 3, "{scans} of {cases} scans share columns");
+    assert!(columns > 500 * u64::from(cases), "{columns} columns are shared");
 }

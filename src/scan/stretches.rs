@@ -14,6 +14,8 @@ pub(super) struct Stretches {
     width: usize,
     /// The ends of stretches along rows, to the right, and of those along columns, upwards, of 64 cells beside each other.
     ends: Vec<[u64; 2]>,
+    /// The columns that stretches along columns cover, 64 a word: none before cells are marked.
+    columns: Vec<u64>,
 }
 
 impl Stretches {
@@ -24,10 +26,12 @@ impl Stretches {
     pub(super) fn new(area: Area) -> Result<Self, TryReserveError> {
         let [columns, rows] = area.size();
         let width = columns / WORD;
-        let mut ends = Vec::new();
+        let (mut ends, mut columns) = (Vec::new(), Vec::new());
         ends.try_reserve_exact(width * rows)?;
         ends.resize(width * rows, [0; 2]);
-        Ok(Self { width, ends })
+        columns.try_reserve_exact(width)?;
+        columns.resize(width, 0);
+        Ok(Self { width, ends, columns })
     }
 
     /// Tells whether rows are too short for stretches.
@@ -42,13 +46,12 @@ impl Stretches {
     }
 
     /// Marks the cells of all stretches as [`FREE`].
-    pub(super) fn mark(&self, codes: &mut [u8]) {
-        let mut columns = alloc::vec![0_u64; self.width];
+    pub(super) fn mark(mut self, codes: &mut [u8]) {
         let width = self.width.max(1);
         for (codes, ends) in codes.chunks_exact_mut(WORD * width).zip(self.ends.chunks_exact(width)) {
             let mut carried = 0;
             let (codes, _) = codes.as_chunks_mut();
-            for ((codes, column), &[along, across]) in codes.iter_mut().zip(&mut columns).zip(ends) {
+            for ((codes, column), &[along, across]) in codes.iter_mut().zip(&mut self.columns).zip(ends) {
                 *column ^= across;
                 let along = if along == 0 { carried } else { between(along) ^ carried };
                 // All ones while a stretch goes on in the next word.

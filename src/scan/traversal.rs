@@ -10,7 +10,7 @@ use super::lattice::{FRACTION, Point};
 /// left edge it runs, and those that hold its ends.
 ///
 /// No rounding: where the segment crosses the next line of its longer axis, it has come `next / long` units beyond the last line of
-/// the other that it crossed, in integers below `2^93`; if that is more than a cell, it crosses the other one before.
+/// the other that it crossed, in integers of at most `2^91`; if that is more than a cell, it crosses the other one before.
 #[derive(Clone, Debug)]
 pub(super) struct Traversal {
     cell: [i64; 2],

@@ -1,4 +1,6 @@
-//! Digests of a million results in both formats, and of integrals: the same numbers on every platform and in every build.
+//! Digests of a million results in both formats, of integrals and of maps from scans: the same numbers on every platform and in every build.
+
+mod scans;
 
 use mean_information::cell::{
     entropy, entropy_from_log_odds, information, information_from_log_odds, occupancy_from_log_odds,
@@ -10,9 +12,9 @@ use mean_information::quadrature::{adaptive::GaussKronrod, rigorous::Rigorous};
 use mean_information::sensor::{GaussianSensor, InverseSensorModel};
 use mean_information::{Real, Tally, cell::Cell};
 
-/// The digests of results and of integrals, everywhere. If one changes and what is digested did not, results changed: say so
+/// The digests of results, of integrals and of scans, everywhere. If one changes and what is digested did not, results changed: say so
 /// in CHANGELOG.md.
-pub const DIGESTS: [u64; 2] = [0x3e0b_a3be_7730_d1b9, 0x0bcb_7b16_92a6_e692];
+pub const DIGESTS: [u64; 3] = [0x3e0b_a3be_7730_d1b9, 0x0bcb_7b16_92a6_e692, 0x5ea4_4124_ff78_873b];
 
 /// FNV-1a over the bits of every result.
 struct Digest(u64);
@@ -54,9 +56,9 @@ fn next(state: &mut u64) -> u64 {
     *state
 }
 
-/// Computes both digests.
-pub fn digests() -> [u64; 2] {
-    [results(), integrals()]
+/// Computes the digests.
+pub fn digests() -> [u64; 3] {
+    [results(), integrals(), scans::digest()]
 }
 
 /// The digest of about a million and a quarter results.

@@ -222,7 +222,7 @@ pub(super) fn value<T: Lane, const FUSED: bool, const ENTROPY: bool>(
     // Series: exact, since `x` and `c` agree in their leading bits.
     let h = x - c;
     let y = h * inverse;
-    // Series: exact in `f64`, where a centre is a multiple of `2^-41`; in `f32` so far down as that is of `2^-24`.
+    // Series: exact in `f64`, where a centre is a multiple of `2^-40`; in `f32` so far down as that is of `2^-24`.
     let b = if near {
         -c
     } else if ENTROPY {

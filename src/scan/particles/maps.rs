@@ -29,8 +29,8 @@ use core::ops::Range;
 /// * 4 bytes for each cell of the rectangle that any of them has seen, and half as much again on each side that grew;
 /// * `4 n` bytes, and 40 to 80 beside them, for each pattern; one in four or more has a cell, or there are few;
 /// * some 120 bytes for each sum of log-odds that occurs;
-/// * while scans are inserted, a byte for each cell of each scan's rectangle, `4 n` for each that any of them touches, and 4
-///   for each cell of the rectangle of them all.
+/// * while scans are inserted, up to two bytes for each cell of each scan's rectangle, `4 n` for each that any of them touches,
+///   and 4 for each cell of the rectangle of them all.
 ///
 /// ```
 /// use mean_information::scan::{Beam, ParticleMaps, Pose, Scan, ScanMap};

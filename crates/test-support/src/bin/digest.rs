@@ -1,4 +1,4 @@
-//! Prints the digests of a million results and of integrals, for `tests/same_bits.rs`.
+//! Prints the digests of a million results, of integrals and of scans, for `tests/same_bits.rs`.
 //!
 //!     cargo run --release --package mean-information-test-support --bin digest
 

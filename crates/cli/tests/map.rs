@@ -253,3 +253,18 @@ fn octomap_s_own_trees_are_measured() {
         assert_eq!(format!("{:.2}", row["observed_volume_m3"].as_f64().unwrap()), volume);
     }
 }
+
+/// Of cells of several sizes the table says so; of one size, and where none has a size, it says nothing.
+#[test]
+fn maps_of_several_resolutions_are_not_to_be_compared() {
+    let folder = Folder::new();
+    let fine = folder.ros_map("fine", 5, &GREYS, "scale");
+    let coarse = folder.ros_map("coarse", 5, &GREYS, "scale");
+    let array = folder.npy_map("cells.npy", 2, &[0.25, 0.75]);
+    let note = "these maps: cells of 0.2 to 0.4 m: compare maps at one resolution";
+    assert!(!stdout(&["map", &fine, &coarse, &array]).contains("these maps"));
+    let text = std::fs::read_to_string(&coarse).unwrap().replace("resolution: 0.2", "resolution: 0.4");
+    std::fs::write(&coarse, text).unwrap();
+    assert!(stdout(&["map", &fine, &array, &coarse]).contains(note));
+    assert!(!stdout(&["map", &coarse, &array]).contains("these maps"));
+}

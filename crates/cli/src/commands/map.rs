@@ -171,6 +171,20 @@ fn cells(map: &MeasuredMap) -> [String; 8] {
 
 struct MeasuredMaps(Vec<MeasuredMap>);
 
+impl MeasuredMaps {
+    /// Says that maps of cells of several sizes are not to be compared.
+    fn cell_sizes(&self) -> Option<String> {
+        let mut sides: Vec<_> = self.0.iter().filter_map(|map| map.resolution).collect();
+        sides.sort_by(f64::total_cmp);
+        sides.dedup();
+        let [least, .., most] = sides[..] else { return None };
+        let [least, most] = [least, most].map(|side| Number::given(side).to_string());
+        Some(format!(
+            "cells of {least} to {most} m: compare maps at one resolution, which meaninfo sweep shows for each"
+        ))
+    }
+}
+
 impl Report for MeasuredMaps {
     fn table(&self) -> String {
         let header = [
@@ -184,6 +198,8 @@ impl Report for MeasuredMaps {
             "unknown",
         ];
         let notes = self.0.iter().flat_map(|map| map.warnings.iter().map(|note| (&*map.name, &**note)));
+        let sizes = self.cell_sizes();
+        let notes = notes.chain(sizes.as_deref().map(|note| ("these maps", note)));
         with_notes(table(header, self.0.iter().map(cells)), notes)
     }
 

@@ -39,6 +39,18 @@ fn every_row_resolves() {
     }
 }
 
+/// The README's line to cite is that of `CITATION.cff`, with the version of the package.
+#[test]
+fn the_line_to_cite_is_that_of_the_citation_file() {
+    let (readme, citation) = (read("README.md"), read("CITATION.cff"));
+    for (key, field) in [("title: ", "title"), ("version: ", "version"), ("  - name: ", "author")] {
+        let line = citation.lines().find_map(|line| line.strip_prefix(key)).unwrap().trim_matches('"');
+        let entry = readme.lines().find(|line| line.trim_start().starts_with(&format!("{field} "))).unwrap();
+        assert!(entry.contains(&format!("{{{line}}}")), "{entry}: {line}");
+        assert!(field != "version" || line == env!("CARGO_PKG_VERSION"), "{line}");
+    }
+}
+
 #[test]
 fn no_equation_figure_or_operation_is_missing() {
     let page = read(PAGE);

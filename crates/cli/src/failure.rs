@@ -1,5 +1,6 @@
 //! Why a command did not do what it was asked: one line for stderr, and exit status 2.
 
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use mean_information_files::Error;
 use mean_information_report::{Refused, one_line};
 use std::fmt;
@@ -92,6 +93,10 @@ impl From<clap::Error> for Failure {
         let lines =
             rendered.lines().take_while(|line| !line.starts_with("Usage:") && !line.starts_with("For more"));
         let message = lines.map(str::trim).filter(|line| !line.is_empty()).collect::<Vec<_>>().join(" ");
-        Self::Usage(message.trim_start_matches("error: ").to_owned())
+        // Of a command to run, after `--`: a word that is no option is where it begins.
+        let is_word = matches!(error.get(ContextKind::InvalidArg), Some(ContextValue::String(word)) if !word.starts_with('-'));
+        let takes_command = error.kind() == ErrorKind::UnknownArgument && rendered.contains("-- <CMD>");
+        let advice = if is_word && takes_command { "; put -- before the command" } else { "" };
+        Self::Usage(message.trim_start_matches("error: ").to_owned() + advice)
     }
 }

@@ -27,12 +27,14 @@ impl Kind {
 }
 
 /// The part that a cause has in an operation's failures.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Role {
     /// A cause: most of them are explained by it.
     Cause,
     /// A pattern: at least a quarter of them is explained by it.
     Pattern,
+    /// Another kind of answer than was due, to fewer of them.
+    Besides,
 }
 
 impl Role {
@@ -41,18 +43,19 @@ impl Role {
         match self {
             Self::Cause => "cause",
             Self::Pattern => "pattern",
+            Self::Besides => "besides",
         }
     }
 
     /// Returns the role of what explains a share `recall` of the failures and shows on a share `precision` of the tests
-    /// on which it should; none if it explains less than a quarter. Where failures are says less than what they are, so
-    /// of a flag's tests more have to fail.
-    pub(super) fn of(kind: Kind, precision: f64, recall: f64) -> Option<Self> {
+    /// on which it should; none if it explains less than a quarter, unless it is another kind of answer than was due.
+    /// Where failures are says less than what they are, so of a flag's tests more have to fail.
+    pub(super) fn of(kind: Kind, of_kind: bool, precision: f64, recall: f64) -> Option<Self> {
         let least = if kind == Kind::Flag { 2.0 / 3.0 } else { 0.5 };
         if recall > 0.5 && precision >= least {
             return Some(Self::Cause);
         }
-        (recall >= 0.25).then_some(Self::Pattern)
+        if recall >= 0.25 { Some(Self::Pattern) } else { of_kind.then_some(Self::Besides) }
     }
 }
 
@@ -88,6 +91,8 @@ pub(super) struct Candidate {
     pub(super) weight: f64,
     /// True if it gives the very values of the wrong answers: where it explains nearly all, nothing else is wrong.
     pub(super) has_values: bool,
+    /// True if answers are of another kind than was due, NaN or no number: few of them matter, too.
+    pub(super) is_of_kind: bool,
 }
 
 /// Returns the indices of the cases for which a condition holds.

@@ -10,7 +10,8 @@
 //! * `2 P R / (P + R)`, times a weight below 1, for anything else.
 //!
 //! What explains most failures, `R > 1/2`, and shows on half of its tests (of a flag's, on two thirds) comes first. What
-//! explains a quarter is a pattern, listed below; what explains less is not listed.
+//! explains a quarter is a pattern, listed below; what explains less is not listed, but for answers of another kind than
+//! was due: NaN for a number, a number for an error. They are few where arguments are, and no rounding explains them.
 
 use super::candidate::{Candidate, Case, Kind, Role, indices};
 use super::facts::facts;
@@ -90,13 +91,13 @@ fn rank(cases: &[Case<'_>], candidates: Vec<Candidate>) -> Vec<Cause> {
     };
     let ranked = |c: Candidate| {
         let precision = c.explained.len() as f64 / c.tests as f64;
-        Some((Role::of(c.kind, precision, recall(&c))?, score(&c), c))
+        Some((Role::of(c.kind, c.is_of_kind, precision, recall(&c))?, score(&c), c))
     };
     let mut scored: Vec<_> = candidates.into_iter().filter_map(ranked).collect();
     // Of equal ones that which explains more, then the first.
     scored.sort_by(|(p, a, c), (q, b, d)| {
         let explained = d.explained.len().cmp(&c.explained.len());
-        (*p == Role::Pattern).cmp(&(*q == Role::Pattern)).then(b.total_cmp(a)).then(explained)
+        p.cmp(q).then(b.total_cmp(a)).then(explained)
     });
     let mut known: HashSet<usize> = HashSet::new();
     let mut whole = false;
@@ -104,7 +105,10 @@ fn rank(cases: &[Case<'_>], candidates: Vec<Candidate>) -> Vec<Cause> {
     let causes = scored.into_iter().map(|(role, score, candidate)| {
         // Equals cannot be told apart.
         let lesser = last.replace((role, score)) != Some((role, score));
-        let redundant = lesser && (whole || candidate.explained.iter().all(|index| known.contains(index)));
+        // Rounding may explain nearly all, but not these.
+        let redundant = lesser
+            && (whole && role != Role::Besides
+                || candidate.explained.iter().all(|index| known.contains(index)));
         whole |= candidate.has_values && recall(&candidate) >= WHOLE;
         known.extend(&candidate.explained);
         let Candidate { kind, name, note, explained, tests, elsewhere, .. } = candidate;
@@ -128,6 +132,7 @@ fn trap(cases: &[Case<'_>], name: &str, note: &str) -> Option<Candidate> {
         elsewhere: None,
         weight: 1.0,
         has_values: true,
+        is_of_kind: false,
     })
 }
 
@@ -186,6 +191,7 @@ fn flag(cases: &[Case<'_>], name: &str, note: &str) -> Option<Candidate> {
         elsewhere: Some(elsewhere),
         weight: FLAG_WEIGHT,
         has_values: false,
+        is_of_kind: false,
     })
 }
 
@@ -310,6 +316,17 @@ mod tests {
         let causes = causes(&wants, &wrong, |_| vec!["Random"], traps);
         assert_eq!(names(&causes), ["A", "B"]);
         assert!(causes.iter().all(|cause| cause.score == 1.0 && !cause.redundant));
+    }
+
+    /// Four of 60, beside errors of rounding.
+    #[test]
+    fn nan_is_said_however_rare() {
+        let wants = wants(60);
+        let answers: Vec<_> =
+            (0..60).map(|i| if i < 4 { f64::NAN } else { wants[i].next_up().next_up() }).collect();
+        let causes = causes(&wants, &answers, |_| Vec::new(), |_| Vec::new());
+        assert_eq!(names(&causes), ["rounding", "nan"]);
+        assert_eq!((causes[1].role, causes[1].explained, causes[1].redundant), (Role::Besides, 4, false));
     }
 
     /// Small errors among large ones, a value that occurs now and then: neither is a cause.

@@ -28,7 +28,9 @@ const SAME: f64 = NEAR / 16.0;
 pub(super) fn facts(cases: &[Case<'_>]) -> Vec<Candidate> {
     let mut candidates = Vec::new();
     for (name, note, holds) in PLAIN_FACTS {
-        candidates.push(fact(name, (*note).to_owned(), PLAIN, indices(cases, holds)));
+        let is_of_kind = !NOT_OF_KIND.contains(name);
+        candidates
+            .push(Candidate { is_of_kind, ..fact(name, (*note).to_owned(), PLAIN, indices(cases, holds)) });
     }
     candidates.extend(words(cases));
     let patterns = [
@@ -52,7 +54,17 @@ pub(super) fn facts(cases: &[Case<'_>]) -> Vec<Candidate> {
 pub(super) fn fact(name: &str, note: String, weight: f64, explained: Vec<usize>) -> Candidate {
     let tests = explained.len();
     let (kind, name) = (Kind::Fact, name.to_owned());
-    Candidate { kind, name, note, explained, tests, elsewhere: None, weight, has_values: false }
+    Candidate {
+        kind,
+        name,
+        note,
+        explained,
+        tests,
+        elsewhere: None,
+        weight,
+        has_values: false,
+        is_of_kind: false,
+    }
 }
 
 type PlainFact = (&'static str, &'static str, fn(Case<'_>) -> bool);
@@ -97,6 +109,9 @@ const PLAIN_FACTS: &[PlainFact] = &[
     }),
 ];
 
+/// The plain facts that are no other kind of answer than was due: the verdict shows troubles one by one.
+const NOT_OF_KIND: [&str; 2] = ["trouble", "negative-zero"];
+
 fn answered(case: Case<'_>, holds: impl Fn(&Answered) -> bool) -> bool {
     case.wrong_answer().is_some_and(|judged| holds(&judged.answer))
 }
@@ -120,7 +135,9 @@ fn words(cases: &[Case<'_>]) -> Vec<Candidate> {
         }
     }
     let note = |word: &str| format!("answers the error \"{word}\"");
-    by_word.into_iter().map(|(word, explained)| fact("error", note(word), PLAIN, explained)).collect()
+    let named =
+        |(word, explained)| Candidate { is_of_kind: true, ..fact("error", note(word), PLAIN, explained) };
+    by_word.into_iter().map(named).collect()
 }
 
 /// A finite number that was answered.
@@ -276,8 +293,9 @@ fn few_ulp(cases: &[Case<'_>]) -> Option<Candidate> {
     let all = wrong.len() as f64;
     let near: Vec<_> = wrong.into_iter().filter(|number| number.error.ulp <= FEW_ULP).collect();
     let worst = near.iter().map(|number| number.error.ulp).fold(0.0, f64::max);
+    let unless = if near.len() as f64 == all { "" } else { ", where not by more," };
     let note = format!(
-        "is off by up to {} ulp: rounding errors add up; claim what the port promises, or round once at the end",
+        "is off by up to {} ulp{unless}: rounding errors add up; claim what the port promises, or round once at the end",
         short(worst)
     );
     let explained: Vec<_> = near.into_iter().map(|number| number.case).collect();

@@ -245,11 +245,27 @@ pub(super) fn shown(line: &[u8]) -> String {
     format!("'{}{more}'", one_line(&start))
 }
 
+/// Returns the last lines, the first of them the one that says why, if that stands further up: as Node.js has it, above
+/// the calls that led there.
 fn last_lines(text: &str) -> Vec<String> {
     let (lines, characters) = ERRORS_SHOWN;
     let filled: Vec<_> = text.lines().map(str::trim_end).filter(|line| !line.is_empty()).collect();
-    let last = filled.iter().skip(filled.len().saturating_sub(lines));
+    let mut first = filled.len().saturating_sub(lines);
+    let above = filled[..first].iter().rfind(|line| says_why(line));
+    let above = above.filter(|_| !filled[first..].iter().any(|line| says_why(line)));
+    first += usize::from(above.is_some());
+    let last = above.into_iter().chain(&filled[first..]);
     last.map(|line| one_line(&line.chars().take(characters).collect::<String>())).collect()
+}
+
+/// Returns whether a line names an error: `Error: Cannot find module`, `ValueError: ...`, `error: ...`.
+fn says_why(line: &str) -> bool {
+    !line.starts_with(char::is_whitespace) && ["Error: ", "error: "].iter().any(|word| line.contains(word))
+}
+
+/// Returns the line of standard error that says why a port ended: the last that names an error, or else the last.
+pub(super) fn reason(lines: &[String]) -> Option<&String> {
+    lines.iter().rfind(|line| says_why(line)).or_else(|| lines.last())
 }
 
 fn lock(errors: &Mutex<VecDeque<u8>>) -> std::sync::MutexGuard<'_, VecDeque<u8>> {
@@ -300,6 +316,25 @@ mod tests {
         assert_eq!(kept.len(), ERRORS_KEPT);
         let lines = last_lines(&String::from_utf8(kept).unwrap());
         assert_eq!(lines, ["line 99996", "line 99997", "line 99998", "line 99999", "\\u{1b}[31mend"]);
+    }
+
+    /// By Node.js 20, of a file that is not there.
+    #[test]
+    fn the_line_that_says_why_is_found_above_the_calls() {
+        let calls = "    at Module._load (node:internal/modules/cjs/loader:1038:27)\n".repeat(6);
+        let node = format!(
+            "node:internal:1210\n  throw err;\n  ^\n\nError: Cannot find module 'a.mjs'\n{calls}  code: 'X',\n}}\n\nNode.js v20\n"
+        );
+        let lines = last_lines(&node);
+        assert_eq!(
+            (lines.len(), lines[0].as_str(), lines[4].as_str()),
+            (5, "Error: Cannot find module 'a.mjs'", "Node.js v20")
+        );
+        assert_eq!(reason(&lines), Some(&lines[0]));
+        let python = last_lines("Traceback:\n  raise ValueError: no\nValueError: no\n");
+        assert_eq!(reason(&python).map(String::as_str), Some("ValueError: no"));
+        let plain = last_lines("one\ntwo");
+        assert_eq!(reason(&plain).map(String::as_str), Some("two"));
     }
 
     #[test]

@@ -82,10 +82,13 @@ impl Checked {
         let best = self.causes.first().map_or(0.0, |cause| cause.score);
         let least = LEAST.max(LIKELY * best);
         let likely = self.causes.iter().filter(|cause| !cause.redundant && cause.score >= least);
-        if likely.clone().all(|cause| cause.role == Role::Pattern) {
+        if likely.clone().all(|cause| cause.role != Role::Cause) {
             let _ = writeln!(text, "  no known mistake explains most of them");
         }
-        for cause in likely.take(CAUSES_SHOWN) {
+        // Of another kind than was due: always shown.
+        let besides = |cause: &&Cause| cause.role == Role::Besides && !cause.redundant;
+        let likely = likely.filter(|cause| !besides(cause)).take(CAUSES_SHOWN);
+        for cause in likely.chain(self.causes.iter().filter(besides)) {
             let _ = writeln!(text, "  {}", words::cause(cause, failures));
         }
         let not_run =

@@ -1,7 +1,7 @@
 //! The conversation with a port: requests are sent ahead, troubles are laid to the request that caused them, and the
 //! port is started again.
 
-use super::process::{PortError, Process, shown};
+use super::process::{PortError, Process, reason, shown};
 use super::values::{MAX_ABSOLUTE, MAX_TOLERANCE};
 use super::vectors::Test;
 use crate::failure::Failure;
@@ -193,8 +193,8 @@ fn greet(command: &[OsString], limit: Duration) -> Result<(Process, Welcome), St
     process.send(&Request::Start { protocol: VERSION }.line());
     match process.receive(limit).map_err(|error| error.to_string()).and_then(|line| read_welcome(&line)) {
         Ok(welcome) => Ok((process, welcome)),
-        Err(message) => Err(match process.end().last() {
-            Some(error) => format!("{message}; its standard error ends with: {error}"),
+        Err(message) => Err(match reason(&process.end()) {
+            Some(error) => format!("{message}; its standard error says: {error}"),
             None => message,
         }),
     }

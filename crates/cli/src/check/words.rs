@@ -94,5 +94,6 @@ pub(super) fn cause(cause: &Cause, failures: usize) -> String {
     match role {
         Role::Cause => evidence,
         Role::Pattern => format!("a pattern: {evidence}"),
+        Role::Besides => format!("besides: {evidence}"),
     }
 }

@@ -14,11 +14,18 @@ pub(super) fn page(paper: &Paper) -> String {
 white is free, black is occupied, blue-grey is unknown, and an orange dot is where the robot was. Every number on this page is
 computed as the page is made, and is the same on every run and machine.</p>
 <p>{} claims: {pass} hold as they stand, {corrected} are corrected, {fail} failed. <a href="#claims">The table</a> has them.
-The derivations are in {}, and each statement of the report with its chapter, function and test in {}.</p>
+The derivations are in {}, and each statement of the report with its chapter, function and test in {}. These links lead to docs.rs, once version {version} is
+published there; until then the same chapters are in <code>docs/</code> of the checkout, the last of them as <code>docs/paper.md</code>.</p>
+<p>Made by mean-information {version}. To cite it: The mean-information developers,
+<cite>mean-information: reference implementation of the mean information of occupancy maps, with verified numerics</cite>, version {version},
+beside the report; <code>CITATION.cff</code> of the checkout has both.</p>
 {figures}<section id="claims">
 <h2>What can be checked</h2>
 <table>
-<caption>Pass: the claim holds as it stands. Corrected: it does not, and what holds instead was checked.</caption>
+<caption>Pass: the claim holds as it stands. Corrected: it does not, and what holds instead was checked. That is of
+three kinds: true within limits that the report does not state (alignment, finer cells, the closing of a loop), true of one of two
+readings (the grids of the experiment), and compared in part only (other estimators). What was asked for, where that is more than the claim
+itself, is said behind the measurement; these bounds are this project's, not the report's.</caption>
 <thead><tr><th scope="col">In the report</th><th scope="col">Claim</th><th scope="col">Measured</th><th scope="col">Verdict</th></tr></thead>
 <tbody>
 {claims}</tbody>
@@ -28,6 +35,7 @@ The derivations are in {}, and each statement of the report with its chapter, fu
         paper.claims.len(),
         book("", "the book"),
         book("paper", "the report, line by line"),
+        version = env!("CARGO_PKG_VERSION"),
     );
     output::page("The mean information of occupancy maps, reproduced", &body)
 }

@@ -45,7 +45,9 @@ pub(super) fn section() -> Result<Section, Failure> {
             200.0 * (reach - RANGE)
         ),
         theory: &[Theory {
-            words: "What a reading z says of a place at the distance ρ, if its noise has the standard deviation σ",
+            words: "What a reading z says of a place at the distance ρ, if its noise has the standard deviation σ. The report \
+                    calls it a density, which it is not: it is 1 at z whatever σ is. Nor is it the occupancy that Bayes' rule \
+                    finds from such noise: it is a model, taken as the report has it",
             formula: formulas::SENSOR,
             chapter: ["sensor", "The inverse sensor model"],
         }],
@@ -61,7 +63,9 @@ pub(super) fn section() -> Result<Section, Failure> {
         "Eq. 5, Fig. 3",
         "The model is 1 at the range read and 1/2 beyond z + σ √(ln 4), without a step there.",
         sensor.occupancy(RANGE) == 1.0 && (edge - 0.5).abs() < 1e-12 && sensor.occupancy(beyond) == 0.5,
-        format!("1 at {RANGE} m, {edge} at {reach} m, and 0.5 at the next float"),
+        format!(
+            "1 at {RANGE} m, {edge} at {reach} m, and 0.5 at the next float; asked for: 1/2 within 1e-12 at the edge"
+        ),
     )];
     Ok(Section { figures: vec![figure], claims })
 }

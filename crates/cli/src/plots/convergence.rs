@@ -119,7 +119,7 @@ impl Drawing for ConvergencePlot<'_> {
             chart
                 .draw_series(DashedLineSeries::new(limit, 9, 6, colour.stroke_width(2)))?
                 .label(format!(
-                    "limit of {} grids, with the proved band: {:.6}",
+                    "limit of {} grids: {:.6}, with the proved band",
                     series.kind.adjective(),
                     series.limit
                 ))

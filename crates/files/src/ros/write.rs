@@ -59,7 +59,7 @@ pub fn write_description(
     let image = image.replace('\'', "''");
     write!(
         output,
-        "{comment}# Grey v is occupancy (255 - v) / 255. Grey {UNKNOWN} is 50 percent, which means unknown.\n\
+        "{comment}# Grey v is occupancy (255 - v) / 255, rounded to whole percent. Grey {UNKNOWN} is 50 percent, which means unknown.\n\
          image: '{image}'\n\
          resolution: {:?}\n\
          origin: [{x:?}, {y:?}, {:?}]\n\

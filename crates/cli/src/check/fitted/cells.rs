@@ -1,5 +1,6 @@
 //! A small number `e` in the entropy of a cell: added within the logarithms, `-p log2(p + e) - (1-p) log2(1-p + e)`, or
-//! within one of them, or the end of the interval `[e, 1 - e]` that occupancies are clamped to. All are monotone in `e`,
+//! within one of them, or the end of the interval `[e, 1 - e]` that occupancies are clamped to, everywhere or
+//! within the logarithms alone. All are monotone in `e`,
 //! so each answer gives it by bisection; the value that fits most answers is taken.
 
 use super::measure::{Measure, occupancies, width};
@@ -24,10 +25,17 @@ enum Mistake {
     AddedToOccupied,
     AddedToFree,
     Clamped,
+    /// `-p log2(max(p, e))`, and the same of `1 - p`.
+    ClampedInLogarithm,
 }
 
-const MISTAKES: [Mistake; 4] =
-    [Mistake::Added, Mistake::AddedToOccupied, Mistake::AddedToFree, Mistake::Clamped];
+const MISTAKES: [Mistake; 5] = [
+    Mistake::Added,
+    Mistake::AddedToOccupied,
+    Mistake::AddedToFree,
+    Mistake::Clamped,
+    Mistake::ClampedInLogarithm,
+];
 
 impl Mistake {
     /// Returns the entropy of a cell in bits.
@@ -37,6 +45,7 @@ impl Mistake {
             Self::AddedToOccupied => (p, [e, 0.0]),
             Self::AddedToFree => (p, [0.0, e]),
             Self::Clamped => (p.clamp(e, 1.0 - e), [0.0, 0.0]),
+            Self::ClampedInLogarithm => (p, [(e - p).max(0.0), (e - (1.0 - p)).max(0.0)]),
         };
         let term = |q: f64, added: f64| if q > 0.0 { -q * libm::log2(q + added) } else { 0.0 };
         term(p, occupied) + term(1.0 - p, free)
@@ -45,7 +54,7 @@ impl Mistake {
     fn name(self) -> &'static str {
         match self {
             Self::Added | Self::AddedToOccupied | Self::AddedToFree => "epsilon-in-logarithm",
-            Self::Clamped => "clamped",
+            Self::Clamped | Self::ClampedInLogarithm => "clamped",
         }
     }
 
@@ -66,6 +75,10 @@ impl Mistake {
             }
             Self::Clamped => format!(
                 "clamps occupancies to [{e}, 1 - {e}]{nats}: p = 0 and 1 are certain, and all p below {e} get one answer"
+            ),
+            Self::ClampedInLogarithm => format!(
+                "clamps the arguments of the logarithms, log2(max(p, {e})){nats}: what is nearer to certainty has too small a \
+                 logarithm; 0 log 0 is 0, without it"
             ),
         }
     }
@@ -147,6 +160,7 @@ mod tests {
             (Mistake::AddedToFree, &[0.0, 0.75]),
             (Mistake::Clamped, &[0.0]),
             (Mistake::Clamped, &[1e-9, 0.3, 1.0]),
+            (Mistake::ClampedInLogarithm, &[1e-9, 0.3, 1.0]),
         ] {
             for measure in [Measure::Entropy, Measure::Information, Measure::MeanInformation] {
                 let value = |e| measure.value(cells, |p| LN_2 * mistake.entropy(p, e));
@@ -164,6 +178,10 @@ mod tests {
         assert!(near(Mistake::AddedToOccupied.entropy(1.0, 1e-9), -1.4426950e-9));
         assert!(near(Mistake::AddedToFree.entropy(1.0, 1e-9), 0.0));
         assert!(near(Mistake::Added.entropy(0.25, 0.0), 0.8112781244591328));
+        assert!(near(
+            Mistake::ClampedInLogarithm.entropy(0.0625, 0.125),
+            0.0625 * 3.0 - 0.9375 * libm::log2(0.9375)
+        ));
         assert!(near(Mistake::Clamped.entropy(1e-8, 1e-7), 2.469619163220e-6));
         assert_eq!(Mistake::Clamped.entropy(1e-8, 1e-7), Mistake::Clamped.entropy(0.0, 1e-7));
         assert_eq!(Mistake::Clamped.entropy(0.375, 1e-7), Mistake::Added.entropy(0.375, 0.0));

@@ -98,9 +98,11 @@ fn of_one_trajectory_they_are_printed() {
     let lines: Vec<_> = text.lines().filter(|line| line.contains("contradict each other at x ")).collect();
     assert_eq!(lines.len(), 3, "{text}");
     assert!(lines[0].contains("room.odometry.tum: scans at ") && lines[0].contains(" s after the first"));
+    let has_own = |text: &str| text.contains("a trajectory that is right has its worst places, too");
+    assert!(has_own(&text));
     // Of several, where they part is said instead.
     let text = stdout(&[&["trajectory", LOG, TRUE, ODOMETRY], &COARSE[..]].concat());
-    assert!(!text.contains("contradict each other") && text.contains("moves differently"));
+    assert!(!has_own(&text) && !text.contains("contradict each other") && text.contains("moves differently"));
     let rows = rows(&[&[LOG, TRUE, ODOMETRY], &COARSE[..]].concat());
     assert!(rows.iter().all(|row| row["contradictions"].as_array().unwrap().len() == 3));
     assert_eq!(rows[0]["partings"], Value::Array(Vec::new()));

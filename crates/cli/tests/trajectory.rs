@@ -142,6 +142,12 @@ fn the_page_needs_no_other_file_and_the_pictures_are_the_same_again() {
     // Of one trajectory there is nothing to compare with: one panel.
     let series = Pixels::of_png(&read(&series));
     assert_eq!((series.width, series.height), (640, 386));
+    let alone = folder.text_path("alone");
+    stdout(&["trajectory", LOG, TRUE, "--resolution", "0.5", "--out", &alone]);
+    let alone = read(format!("{alone}/index.html"));
+    for words in ["Which trajectory is right?", "where a curve leaves the first", "Trajectories compared"] {
+        assert_eq!((text(&files[3]).contains(words), text(&alone).contains(words)), (true, false), "{words}");
+    }
     let svg = roxmltree::Document::parse(text(&files[0])).unwrap();
     for label in ["room.true.tum", "room.odometry.tum", "time since the first scan (s)"] {
         assert!(

@@ -78,8 +78,8 @@ struct Association {
     /// has it, or else 0,0,0: POSES are those of the laser. Of a saved state, the laser in the tracking frame.
     #[arg(long, value_name = "X,Y,YAW", value_parser = mount)]
     mount: Option<Pose>,
-    /// The longest time between two poses that are interpolated.
-    #[arg(long, value_name = "SECONDS", default_value_t = 1.0, value_parser = seconds)]
+    /// The longest time between two poses that are interpolated; what is interpolated is a worse pose than one of POSES.
+    #[arg(long, value_name = "SECONDS", default_value_t = Common::GAP, value_parser = seconds)]
     max_gap: f64,
     /// The laser is mounted upside down, so that its bearings turn clockwise; of a bag, also where TF says so.
     #[arg(long)]

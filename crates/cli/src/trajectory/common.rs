@@ -32,9 +32,16 @@ pub struct Common<'a> {
     pub silent: usize,
     /// The number of beams that say something.
     pub beams: u64,
+    /// The longest of them, in metres.
+    pub reach: f64,
+    /// The number of poses that are interpolated between two further apart than [`Self::GAP`], of each trajectory.
+    pub stretched: Vec<usize>,
 }
 
 impl<'a> Common<'a> {
+    /// The longest time between two poses that are interpolated, in seconds, unless another is asked for.
+    pub const GAP: f64 = 1.0;
+
     /// Finds the scans for which every candidate has a pose, and these poses; between two poses no further apart than `max_gap` seconds poses are interpolated.
     ///
     /// # Errors
@@ -58,14 +65,20 @@ impl<'a> Common<'a> {
             without_pose,
             silent: 0,
             beams: 0,
+            reach: 0.0,
+            stretched: vec![0; candidates.len()],
         };
         for (index, scan) in scans.iter().enumerate() {
-            let beams = telling(scan, no_return);
+            let (beams, reach) = telling(scan, no_return);
             common.silent += usize::from(beams == 0);
             let poses: Option<Vec<Pose>> = associated.iter().map(|found| found.poses[index]).collect();
             let Some(poses) = poses.filter(|_| beams > 0) else { continue };
             common.scans.push(scan);
             common.beams += beams;
+            common.reach = common.reach.max(reach);
+            for (stretched, Candidate { trajectory, .. }) in common.stretched.iter_mut().zip(candidates) {
+                *stretched += usize::from(trajectory.pose_at(scan.time(), Self::GAP).is_none());
+            }
             for (own, pose) in common.poses.iter_mut().zip(poses) {
                 own.push(pose);
             }
@@ -74,14 +87,15 @@ impl<'a> Common<'a> {
     }
 }
 
-/// Counts the beams of a scan that say something.
-fn telling(scan: &RangeScan, no_return: NoReturn) -> u64 {
-    let tells = |reading: &Reading| match reading {
-        Reading::Return(_) => true,
-        Reading::NoReturn => no_return == NoReturn::Free,
-        Reading::Invalid => false,
+/// Counts the beams of a scan that say something, and finds how far they reach, in metres.
+fn telling(scan: &RangeScan, no_return: NoReturn) -> (u64, f64) {
+    let [_, farthest] = scan.limits();
+    let reach = |reading| match reading {
+        Reading::Return(range) => Some(range),
+        Reading::NoReturn => (no_return == NoReturn::Free).then_some(farthest),
+        Reading::Invalid => None,
     };
-    scan.readings().filter(tells).count() as u64
+    scan.readings().filter_map(reach).fold((0, 0.0), |(count, most), range| (count + 1, range.max(most)))
 }
 
 /// Finds the pose that is furthest from the middle, the medians of x and of y; returns its number, and the distance in metres.

@@ -1,19 +1,22 @@
 //! The rows of a comparison, one a trajectory, and their form as table, JSON and CSV.
 
+use super::alike::Frame;
 use super::common::{Candidate, Common};
 use super::contradictions::Contradiction;
 use super::labels::labels;
 use super::measure::{BLOCKS, Measured};
 use super::parting::Parting;
 use super::row::{Row, Used};
+use super::verdict::{Behind, verdict};
 use super::warnings;
 use crate::output::{Number, Record, Report, Value, short, table, with_notes, wrapped};
 use mean_information::scan::Difference;
 use mean_information_report::measures::Measures;
 use mean_information_report::one_line;
 
-/// The quantile of Student's distribution with 19 degrees of freedom, one less than blocks: 95 % lie within it on both sides.
-const CLEAR: f64 = 2.093;
+/// What is said below the worst places of one trajectory.
+const WORST: &str =
+    "a trajectory that is right has its worst places, too: at doors, people, glass, and the edges of cells";
 
 /// Trajectories compared on the same scans.
 #[derive(Clone, Debug)]
@@ -44,6 +47,8 @@ impl Comparison {
             let [a, b] = [a, b].map(|k| measured[k].tally.mean_information());
             b.total_cmp(&a)
         });
+        let labels = labels(&candidates.iter().map(|of| of.name.clone()).collect::<Vec<_>>());
+        let frame = |own: usize, other: usize| Frame::of(common, own, other, used.setup.resolution);
         let all = candidates.iter().zip(&common.without_pose).zip(measured).enumerate();
         let rows = all.map(|(index, ((candidate, &scans_without_pose), own))| {
             let mut row = Row {
@@ -52,25 +57,37 @@ impl Comparison {
                 measures: Measures::of_tally(own.size, &own.tally),
                 agreement: own.agreement,
                 revisited: own.revisited(),
-                parting: Parting::of(common, index, order[0], BLOCKS).filter(|_| index != order[0]),
+                parting: Parting::of(common, index, order[0], BLOCKS)
+                    .filter(|_| frame(index, order[0]).is_none()),
                 difference: if index == 0 { None } else { against(&measured[0], own) },
                 contradictions: own.contradictions.clone(),
                 warnings: candidate.warnings.clone(),
             };
             row.warnings.extend(warnings::of_row(&row, &measured[0]));
-            let same = common.poses[..index].iter().position(|poses| *poses == common.poses[index]);
-            row.warnings.extend(same.map(|same| warnings::identical(&candidates[same].name)));
+            row.warnings.extend(warnings::stretched(common, index));
+            let same = (0..index).find(|&other| common.poses[other] == common.poses[index]);
+            let alike = (0..index).find_map(|other| Some((other, frame(index, other)?)));
+            row.warnings.extend(match (same, alike) {
+                (Some(same), _) => Some(warnings::identical(&candidates[same].name)),
+                (None, Some((other, frame))) => Some(warnings::alike(&labels[other], &frame)),
+                (None, None) => None,
+            });
             row
         });
         let rows: Vec<_> = rows.collect();
-        let mut used = used;
-        used.warnings.extend(warnings::of_scans(&used, common.silent));
-        let labels = labels(&candidates.iter().map(|of| of.name.clone()).collect::<Vec<_>>());
-        let verdict = match *order {
-            [best, next, ..] => against(&measured[next], &measured[best])
-                .map(|difference| verdict([&labels[best], &labels[next]], &difference)),
-            _ => None,
+        let behind = |&index: &usize| {
+            let difference = against(&measured[index], &measured[order[0]])?;
+            Some(Behind { label: &labels[index], difference, frame: frame(index, order[0]) })
         };
+        let verdict = match &*order {
+            [best, others @ ..] => {
+                let others: Option<Vec<_>> = others.iter().map(behind).collect();
+                others.and_then(|others| verdict(&labels[*best], &others))
+            }
+            [] => None,
+        };
+        let mut used = used;
+        used.warnings.extend(warnings::of_scans(&used, common, &labels));
         let best = order.first().map(|&best| labels[best].clone());
         Self { used, rows, best, verdict, labels }
     }
@@ -95,45 +112,26 @@ impl Comparison {
     /// Says where the scans of a trajectory contradict one another most, with its name, if it is the only one: else the others
     /// show where.
     pub(super) fn contradictions(&self) -> Vec<(&str, String)> {
-        let alone = match &self.rows[..] {
-            [row] => &row.contradictions[..],
-            _ => &[],
-        };
-        alone.iter().map(|place| (self.rows[0].name.as_str(), place.in_words())).collect()
+        let [row] = &self.rows[..] else { return Vec::new() };
+        let places: Vec<_> = row.contradictions.iter().map(Contradiction::in_words).collect();
+        let own = (!places.is_empty()).then(|| WORST.to_owned());
+        places.into_iter().chain(own).map(|words| (row.name.as_str(), words)).collect()
     }
 
     /// Says what the maps were made of, in words.
     pub fn made_of(&self) -> [String; 2] {
         let Used { scans, scans_used, beams, setup, mount, .. } = &self.used;
+        let errors = match BLOCKS.min(*scans_used) {
+            1 => "no standard errors, as there is one scan alone".to_owned(),
+            parts => format!("standard errors by leaving out each of {parts} parts of the log"),
+        };
         [
             format!("{scans_used} of {scans} scans with {beams} beams; {mount}"),
             format!(
-                "cells of {} m; sensor {}; readings up to {} nats; standard errors by leaving out each of {} parts of the log",
-                setup.resolution,
-                setup.sensor,
-                setup.reading_limit,
-                BLOCKS.min(*scans_used)
+                "cells of {} m; sensor {}; readings up to {} nats; {errors}",
+                setup.resolution, setup.sensor, setup.reading_limit,
             ),
         ]
-    }
-}
-
-/// Tells whether the second map is better by more than chance explains: 97.5 % of the differences that chance makes are below.
-fn is_clear(difference: &Difference) -> bool {
-    difference.blocks() == BLOCKS && difference.value() > CLEAR * difference.standard_error()
-}
-
-/// Tells which of the two best is better.
-fn verdict([best, next]: [&str; 2], difference: &Difference) -> String {
-    let (value, error) = (difference.value(), difference.standard_error());
-    let times = if error > 0.0 { format!(", {:.1} standard errors", value / error) } else { String::new() };
-    if is_clear(difference) {
-        format!("{best} makes the most consistent map: {value:.4} bits per cell above {next}{times}")
-    } else {
-        let ahead =
-            format!(": {best} is ahead by {value:.4} bits per cell{times}, where {CLEAR:.1} would tell");
-        let ahead = if value > 0.0 { ahead } else { String::new() };
-        format!("{best} and {next} are not told apart by these scans{ahead}")
     }
 }
 

@@ -5,8 +5,10 @@
 //! [`Candidate`] has a pose; [`measure_all`] measures the map of each, by several threads; [`Comparison`] has the rows, and
 //! [`Pictures`] draws them.
 
+mod alike;
 mod common;
 mod comparison;
+mod constant;
 mod contradictions;
 mod labels;
 mod measure;
@@ -17,6 +19,7 @@ mod recorded;
 mod row;
 mod sensor;
 mod setup;
+mod verdict;
 mod warnings;
 
 pub use common::{Candidate, Common, far_pose};

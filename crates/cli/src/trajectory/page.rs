@@ -39,13 +39,14 @@ impl Pictures<'_> {
         let (maps, top) = self.panels()?;
         let maps =
             Sheet::new(panels(&maps, 2), "Each trajectory's map beside its contradictions.".to_owned());
+        let Words { title, subject, look } = Words::of(comparison.rows.len());
         let (curves, maps, top) = (curves.element(), maps.element(), short(top));
         let meaning = MEANING
             .replace("{mean information}", formulas::MEAN_INFORMATION)
             .replace("{agreement}", formulas::AGREEMENT)
             .replace("{chapter}", &book("evidence", "Evidence"));
         let body = format!(
-            r#"{answer}<p>Trajectories compared by the maps that they make of the scans of <code>{log}</code>, without ground truth:
+            r#"{answer}<p>{subject} of the scans of <code>{log}</code>, without ground truth:
 where a trajectory is wrong, scans contradict one another.</p>
 <section id="rows">
 <h2>The maps in numbers</h2>
@@ -60,8 +61,7 @@ where a trajectory is wrong, scans contradict one another.</p>
 <h2>When</h2>
 <figure>
 {curves}<figcaption>The mean information of the map as it is made, scan by scan. It rises where places are seen again and
-agree, and falls where new ground is seen once, or where a trajectory went wrong: look where a curve leaves the
-first.</figcaption>
+agree, and falls where new ground is seen once, or where a trajectory went wrong{look}.</figcaption>
 </figure>
 {partings}</section>
 <section id="maps">
@@ -70,12 +70,13 @@ first.</figcaption>
 {maps}<figcaption>First the map: white is free, black is occupied, blue-grey is unknown. Beside or below it the evidence that cancels,
 from <span class="ramp conflicts"></span> little to {top} nats per cell and more, with the path of the laser, from dark blue at its first pose,
 which has a dot, to light blue at its last; the other dots have the seconds since the first scan.
-Walls that are seen twice are where a trajectory is wrong; doors and people contradict under any.</figcaption>
+Contradictions show that a trajectory is wrong, and along which walls, not at which pose: a wall that is seen twice was seen
+from two poses. Doors and people contradict under any.</figcaption>
 </figure>
 {contradictions}</section>
 {meaning}"#
         );
-        Ok(output::page("Which trajectory is right?", &body))
+        Ok(output::page(title, &body))
     }
 
     /// Describes the curves to those who do not see them.
@@ -84,6 +85,31 @@ Walls that are seen twice are where a trajectory is wrong; doors and people cont
             format!("{} ends at {:.4}", one_line(label), measured.tally.mean_information())
         });
         format!("Mean information against time: {}.", ends.collect::<Vec<_>>().join(", "))
+    }
+}
+
+/// The words of a page that depend on whether there are trajectories to compare.
+struct Words {
+    title: &'static str,
+    subject: &'static str,
+    look: &'static str,
+}
+
+impl Words {
+    /// Returns the words of a page of so many trajectories.
+    fn of(trajectories: usize) -> Self {
+        if trajectories == 1 {
+            return Self {
+                title: "Where do the scans contradict one another?",
+                subject: "A trajectory seen by the map that it makes",
+                look: "",
+            };
+        }
+        Self {
+            title: "Which trajectory is right?",
+            subject: "Trajectories compared by the maps that they make",
+            look: ": look where a curve leaves the first",
+        }
     }
 }
 

@@ -18,7 +18,7 @@ fn true_poses() -> Vec<[f64; 4]> {
     let text = fs::read_to_string(TRUE).unwrap();
     let pose = |line: &str| {
         let fields: Vec<f64> = line.split(' ').map(|field| field.parse().unwrap()).collect();
-        [fields[0], fields[1], fields[2], 2.0 * fields[6].atan2(fields[7])]
+        [fields[0], fields[1], fields[2], 2.0 * libm::atan2(fields[6], fields[7])]
     };
     text.lines().filter(|line| !line.starts_with('#')).map(pose).collect()
 }
@@ -32,7 +32,7 @@ fn changed(
 ) -> String {
     let line = |(k, pose): (usize, [f64; 4])| {
         let [time, x, y, yaw] = change(k, pose);
-        let (sin, cos) = (yaw / 2.0).sin_cos();
+        let (sin, cos) = libm::sincos(yaw / 2.0);
         format!("{time} {x:.decimals$} {y:.decimals$} 0 0 0 {sin:.decimals$} {cos:.decimals$}\n")
     };
     let path = folder.text_path(name);
@@ -43,7 +43,7 @@ fn changed(
 /// A trajectory turned about the origin by so many degrees, and shifted in x.
 fn turned(degrees: f64, shift: f64) -> impl Fn(usize, [f64; 4]) -> [f64; 4] {
     let angle = degrees.to_radians();
-    let (sin, cos) = angle.sin_cos();
+    let (sin, cos) = libm::sincos(angle);
     move |_, [time, x, y, yaw]| [time, cos * x - sin * y + shift, sin * x + cos * y, yaw + angle]
 }
 
@@ -89,12 +89,13 @@ fn a_drift_is_everywhere() {
     let text = fs::read_to_string(ODOMETRY).unwrap();
     let yaw = |line: &str| {
         let fields: Vec<f64> = line.split(' ').map(|field| field.parse().unwrap()).collect();
-        2.0 * fields[6].atan2(fields[7])
+        2.0 * libm::atan2(fields[6], fields[7])
     };
     let yaws: Vec<_> = text.lines().filter(|line| !line.starts_with('#')).map(yaw).collect();
     let off: Vec<_> = yaws.iter().zip(true_poses()).map(|(yaw, [.., other])| yaw - other).collect();
-    let ends =
-        |block: std::ops::Range<usize>| (off[block.end.min(149)] - off[block.start]).sin().asin().abs();
+    let ends = |block: std::ops::Range<usize>| {
+        libm::asin(libm::sin(off[block.end.min(149)] - off[block.start])).abs()
+    };
     let turn: f64 = mean_information::scan::blocks(150, 20).map(ends).sum();
     assert!(amounts.ends_with(&format!(" m and {:.1} degrees", turn.to_degrees())), "{amounts} {turn}");
 }
@@ -137,7 +138,7 @@ fn what_is_constant_is_named() {
     let folder = Folder::new();
     let late = changed(&folder, "late.tum", 12, |_, [time, x, y, yaw]| [time + 0.5, x, y, yaw]);
     let mounted = changed(&folder, "mounted.tum", 12, |_, [time, x, y, yaw]| {
-        [time, x + 0.3 * yaw.cos(), y + 0.3 * yaw.sin(), yaw + 0.1]
+        [time, x + 0.3 * libm::cos(yaw), y + 0.3 * libm::sin(yaw), yaw + 0.1]
     });
     let line = said(&mounted);
     let mount = "; a laser that is mounted 0.30 m and 5.7 degrees elsewhere would do nearly all of it: look at --mount";
@@ -154,7 +155,7 @@ fn far_interpolation_is_warned_of() {
     let text = fs::read_to_string(TRUE).unwrap();
     let lines = text.lines().filter(|line| !line.starts_with('#')).step_by(4);
     let path = folder.text_path("key4.tum");
-    fs::write(&path, lines.map(|line| format!("{line}\n")).collect::<String>()).unwrap();
+    fs::write(&path, lines.collect::<Vec<_>>().join("\n")).unwrap();
     let warned = |more: &[&str]| {
         let rows = rows(&[&[LOG, TRUE, &path], more, &COARSE[..]].concat());
         rows.iter().map(|row| row["warnings"].to_string()).collect::<Vec<_>>()

@@ -1,7 +1,7 @@
 //! Whether two trajectories move alike: one is the other, turned and shifted as a whole.
 
 use super::common::Common;
-use super::parting::half_turn;
+use super::motion::half_turn;
 use mean_information::scan::Pose;
 
 /// The part of a cell by which the end of no beam lies elsewhere, where trajectories move alike.

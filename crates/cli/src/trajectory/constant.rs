@@ -1,7 +1,7 @@
 //! A constant that explains why a trajectory moves differently from another: a clock that is off, or a laser mounted elsewhere.
 
 use super::common::Common;
-use super::parting::{LEVER, half_turn, seen_from};
+use super::motion::{LEVER, half_turn, seen_from};
 
 /// The part of the squared differences that may be left for a constant to explain the rest.
 const LEFT: f64 = 0.1;

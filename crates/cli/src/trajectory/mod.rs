@@ -12,6 +12,7 @@ mod constant;
 mod contradictions;
 mod labels;
 mod measure;
+mod motion;
 mod page;
 mod parting;
 mod pictures;

@@ -15,6 +15,8 @@ def main(path: str, encoding: str | None = None) -> None:
     print(f"entropy           {tally.entropy:.1f} bits, of which {tally.unknown} of unknown cells")
     bits = bits_of_cells(read.cells, read.encoding)
     print(f"rows with most    {np.argsort(bits.sum(axis=1))[::-1][:3]}")
+    for warning in read.warnings:
+        print(f"but               {warning}")
 
 
 def bits_of_cells(cells: np.ndarray, encoding: str) -> np.ndarray:

@@ -58,8 +58,16 @@ pub(crate) fn of_file(error: mean_information_files::Error) -> PyErr {
     }
 }
 
-/// Spells the command's options as Python's arguments: `--max-cells` as `max_cells`.
+/// Spells the command's options as Python's arguments: `--max-cells` as `max_cells`; but not within a command that is quoted.
 pub(crate) fn in_python(words: &str) -> String {
+    let parts = words.split('`').enumerate();
+    parts
+        .map(|(k, part)| if k % 2 == 0 { arguments(part) } else { part.to_owned() })
+        .collect::<Vec<_>>()
+        .join("`")
+}
+
+fn arguments(words: &str) -> String {
     let mut parts = words.split("--");
     let mut text = parts.next().unwrap_or_default().to_owned();
     for part in parts {
@@ -68,7 +76,8 @@ pub(crate) fn in_python(words: &str) -> String {
             text += "--";
             text += part;
         } else {
-            text += &part[..end].replace('-', "_");
+            let name = part[..end].replace('-', "_");
+            text += if name == "force" { "costmaps=True" } else { &name };
             text += &part[end..];
         }
     }

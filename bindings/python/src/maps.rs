@@ -11,6 +11,7 @@ use mean_information_files::bags::{self, MapTopic};
 use mean_information_files::{
     ArrayEncoding, Cells, Map, Mode, Options, Semantics, read_array_type_from, read_map_from, with_grid,
 };
+use mean_information_report::Measures;
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use std::path::PathBuf;
@@ -30,7 +31,8 @@ use std::path::PathBuf;
 /// tally : Tally
 ///     The measures of the map.
 /// warnings : list of str
-///     Signs that the map means less than it seems.
+///     Signs that the map means less than it seems; the last one says why its mean information means nothing, if so
+///     (`map.tally.meaningful` is False then, or two greys were read as probabilities).
 #[pyclass(frozen, get_all, name = "Map", module = "mean_information")]
 pub(crate) struct PyMap {
     cells: Py<PyAny>,
@@ -151,14 +153,18 @@ fn as_python(py: Python<'_>, map: Map) -> PyResult<PyMap> {
         Cells::Probability32(_) | Cells::Probability64(_) => "probability",
         Cells::LogOdds32(_) | Cells::LogOdds64(_) => "log-odds",
     };
-    let (cells, tally) = watched(py, move || {
+    let (cells, tally, measures) = watched(py, move || {
         let tally = with_grid!(&cells, grid => PyTally::from(grid.tally()));
-        (cells, tally)
+        let measures = Measures::of(&cells);
+        (cells, tally, measures)
     })?;
+    let not_meaningful = measures.noticing(&warnings).not_meaningful;
     let (array, origin) = with_grid!(&cells, grid => {
         let array = PyArray1::from_slice(py, grid.cells()).reshape([grid.height(), grid.width()])?;
         (array.into_any().unbind(), grid.geometry().origin().into())
     });
-    let (tally, warnings) = (Py::new(py, tally)?, words(&warnings));
+    let tally = Py::new(py, tally)?;
+    let mut warnings = words(&warnings);
+    warnings.extend(not_meaningful.map(|why| why.warning().to_owned()));
     Ok(PyMap { cells: array, encoding: encoding.to_owned(), resolution, origin, tally, warnings })
 }

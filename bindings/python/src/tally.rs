@@ -7,6 +7,7 @@ use crate::errors::refused;
 use crate::long_work::Steps;
 use mean_information::tally::format_of_bytes;
 use mean_information::{InformationSum, Real, Tally};
+use mean_information_report::Measures;
 use numpy::{Element, PyArrayDescr, PyArrayDescrMethods, PyArrayDyn, PyReadonlyArrayDyn, dtype};
 use pyo3::exceptions::{PyOverflowError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -154,6 +155,13 @@ impl PyTally {
     #[getter]
     fn cells(&self) -> u64 {
         with_tally!(&self.0, tally => tally.cells())
+    }
+
+    /// True if the mean information means something: not if no cell is observed, or if all that are have an occupancy of 0 or 1,
+    /// as thresholded maps do, whose mean information is 1 whatever they show.
+    #[getter]
+    fn meaningful(&self) -> bool {
+        with_tally!(&self.0, tally => Measures::of_tally([0; 2], tally).not_meaningful.is_none())
     }
 
     /// Precision that cells were rounded to, and that results are: float64 or float32. Results are Python floats, which hold

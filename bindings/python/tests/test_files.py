@@ -192,3 +192,12 @@ def test_errors_are_pythons_own_in_the_commands_words(tmp_path, maps):
     for arguments in ({"semantics": "x"}, {"mode": "x"}, {"encoding": "x"}):
         with pytest.raises(ValueError, match="is 'x', allowed are"):
             mi.read_map(maps / "room.yaml", **arguments)
+
+
+def test_what_means_nothing_is_said(tmp_path):
+    path = tmp_path / "map.npy"
+    for cells, words in (([[0.0, 1.0, 0.5]], "thresholded"), ([[0.5, 0.5]], "50 percent"), ([[0.25, 0.5]], None)):
+        np.save(path, np.array(cells))
+        read = mi.read_map(path)
+        assert read.tally.meaningful is (words is None)
+        assert [words in warning for warning in read.warnings] == ([] if words is None else [True])

@@ -113,3 +113,13 @@ def test_more_cells_than_counts_hold_are_refused():
     assert tally.cells == 2**63
     with pytest.raises(OverflowError, match=r"2\^64 - 1"):
         tally + tally
+
+
+def test_thresholded_and_empty_maps_mean_nothing():
+    for cells in ([0.0, 1.0, 0.5], [1.0, 1.0], [0.5, 0.5], []):
+        assert mi.tally(cells).meaningful is False
+        assert mi.tally(np.array(cells, dtype=np.float32)).meaningful is False
+    for cells in ([0.0, 1.0, 0.25], [0.5, 0.75]):
+        assert mi.tally(cells).meaningful is True
+    assert mi.tally(np.array([0, 100, -1], dtype=np.int8), encoding="percent").meaningful is False
+    assert sum([mi.tally([0.0]), mi.tally([0.25])]).meaningful is True

@@ -196,7 +196,7 @@ def test_errors_are_pythons_own_in_the_commands_words(tmp_path, maps):
 
 def test_what_means_nothing_is_said(tmp_path):
     path = tmp_path / "map.npy"
-    for cells, words in (([[0.0, 1.0, 0.5]], "thresholded"), ([[0.5, 0.5]], "50 percent"), ([[0.25, 0.5]], None)):
+    for cells, words in (([[0.0, 1.0, 0.5]], "thresholded"), ([[0.5, 0.5]], "nothing observed"), ([[0.25, 0.5]], None)):
         np.save(path, np.array(cells))
         read = mi.read_map(path)
         assert read.tally.meaningful is (words is None)

@@ -71,30 +71,18 @@ impl PyBagMap {
         Ok(format!("<BagMap of {topic} at {time:?} s, shape ({rows}, {columns}): {tally}>"))
     }
 
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Made<'py, State>> {
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Made<'py, (State,)>> {
         let Self { time_ns, topic, shape, resolution, origin, tally, changed, warnings } = self;
         let (tally, warnings) = (tally.clone_ref(py), warnings.clone());
-        made(
-            py,
-            "_bag_map",
-            (*time_ns, topic.clone(), *shape, *resolution, *origin, tally, *changed, warnings),
-        )
+        let state = (*time_ns, topic.clone(), *shape, *resolution, *origin, tally, *changed, warnings);
+        made(py, "_bag_map", (state,))
     }
 }
 
 /// Makes a map of a bag of what pickle has kept.
 #[pyfunction]
-#[expect(clippy::too_many_arguments, reason = "what the class holds")]
-pub(crate) fn _bag_map(
-    time_ns: u64,
-    topic: String,
-    shape: (usize, usize),
-    resolution: f64,
-    origin: (f64, f64),
-    tally: Py<PyTally>,
-    changed: Option<u64>,
-    warnings: Vec<String>,
-) -> PyBagMap {
+pub(crate) fn _bag_map(state: State) -> PyBagMap {
+    let (time_ns, topic, shape, resolution, origin, tally, changed, warnings) = state;
     PyBagMap { time_ns, topic, shape, resolution, origin, tally, changed, warnings }
 }
 

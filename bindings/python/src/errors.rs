@@ -89,6 +89,17 @@ pub(crate) fn out_of_memory() -> PyErr {
     PyMemoryError::new_err("not enough memory for the result")
 }
 
+/// Returns what a word names; refuses a word that names none of the choices.
+pub(crate) fn one_of<T: Copy>(what: &str, given: &str, choices: &[(&str, T)]) -> PyResult<T> {
+    if let Some(&(_, chosen)) = choices.iter().find(|(word, _)| *word == given) {
+        return Ok(chosen);
+    }
+    let words: Vec<_> = choices.iter().map(|(word, _)| format!("'{word}'")).collect();
+    let and = |(last, others): (&String, &[String])| format!("{} and {last}", others.join(", "));
+    let allowed = words.split_last().map_or(String::new(), and);
+    Err(PyValueError::new_err(format!("{what} is '{given}', allowed are {allowed}")))
+}
+
 /// Counts in words: "1 scan", "2 scans".
 pub(crate) fn count(number: impl Into<u64>, what: &str) -> String {
     match number.into() {

@@ -1,14 +1,24 @@
 //! The limit of the mean information of one scan as cells shrink.
 
-use crate::errors::refused;
+use crate::errors::{one_of, refused};
 use crate::pickled::{Made, made};
 use mean_information::limit::{self, Weight};
 use mean_information::quadrature::adaptive::GaussKronrod;
 use mean_information::quadrature::rigorous::Rigorous;
 use mean_information::sensor::GaussianSensor;
 use mean_information_cli::limits::Computed;
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+
+/// How a limit is computed.
+#[derive(Clone, Copy)]
+enum Method {
+    ClosedForm,
+    Adaptive,
+    Rigorous,
+}
+
+const METHODS: [(&str, Method); 3] =
+    [("closed-form", Method::ClosedForm), ("adaptive", Method::Adaptive), ("rigorous", Method::Rigorous)];
 
 /// A limit of the mean information, in bits per observed cell, and what is known of it.
 ///
@@ -101,25 +111,17 @@ pub(crate) fn limit_of(
     weight: &str,
     method: &str,
 ) -> PyResult<PyLimit> {
-    let weight = match weight {
-        "radial" => Weight::Radial,
-        "area" => Weight::Area,
-        _ => return Err(choice("weight", weight, "'radial' and 'area'")),
-    };
+    let weight = one_of("weight", weight, &[("radial", Weight::Radial), ("area", Weight::Area)])?;
     let sensor = GaussianSensor::new(range, sigma).map_err(refused)?;
-    let computed = match method {
-        "closed-form" => Ok(Computed::closed_form(limit::closed_form(&sensor, weight))),
-        "adaptive" => {
+    let computed = match one_of("method", method, &METHODS)? {
+        Method::ClosedForm => Ok(Computed::closed_form(limit::closed_form(&sensor, weight))),
+        Method::Adaptive => {
             py.detach(|| limit::adaptive(&sensor, weight, &GaussKronrod::new()).map(Computed::from))
         }
-        "rigorous" => py.detach(|| limit::rigorous(&sensor, weight, &Rigorous::new()).map(Computed::from)),
-        _ => return Err(choice("method", method, "'closed-form', 'adaptive' and 'rigorous'")),
+        Method::Rigorous => {
+            py.detach(|| limit::rigorous(&sensor, weight, &Rigorous::new()).map(Computed::from))
+        }
     };
     let Computed { value, lower, upper, status, evaluations } = computed.map_err(refused)?;
     Ok(PyLimit { value, lower, upper, status: status.to_owned(), evaluations })
-}
-
-/// Refuses a word that names none of the choices.
-pub(crate) fn choice(what: &str, given: &str, allowed: &str) -> PyErr {
-    PyValueError::new_err(format!("{what} is '{given}', allowed are {allowed}"))
 }

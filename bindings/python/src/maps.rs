@@ -1,8 +1,7 @@
 //! Maps of files, read.
 
-use crate::errors::of_file;
+use crate::errors::{of_file, one_of};
 use crate::interruptible::run;
-use crate::limit::choice;
 use crate::long_work::watched;
 use crate::pickled::{Made, made};
 use crate::scans::words;
@@ -51,10 +50,11 @@ impl PyMap {
         Ok(format!("<Map of shape {shape}, {}: {tally}>", self.encoding))
     }
 
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Made<'py, State>> {
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Made<'py, (State,)>> {
         let Self { cells, encoding, resolution, origin, tally, warnings } = self;
         let (cells, tally) = (cells.clone_ref(py), tally.clone_ref(py));
-        made(py, "_map", (cells, encoding.clone(), *resolution, *origin, tally, warnings.clone()))
+        let state = (cells, encoding.clone(), *resolution, *origin, tally, warnings.clone());
+        made(py, "_map", (state,))
     }
 }
 
@@ -63,14 +63,8 @@ type State = (Py<PyAny>, String, Option<f64>, (f64, f64), Py<PyTally>, Vec<Strin
 
 /// Makes a map of what pickle has kept.
 #[pyfunction]
-pub(crate) fn _map(
-    cells: Py<PyAny>,
-    encoding: String,
-    resolution: Option<f64>,
-    origin: (f64, f64),
-    tally: Py<PyTally>,
-    warnings: Vec<String>,
-) -> PyMap {
+pub(crate) fn _map(state: State) -> PyMap {
+    let (cells, encoding, resolution, origin, tally, warnings) = state;
     PyMap { cells, encoding, resolution, origin, tally, warnings }
 }
 
@@ -93,6 +87,21 @@ pub(crate) fn kind_of_map(py: Python<'_>, path: PathBuf) -> PyResult<(&'static s
     Ok((kind, dtype))
 }
 
+const SEMANTICS: [(&str, Semantics); 3] =
+    [("nav2", Semantics::Nav2), ("nav2-humble", Semantics::Nav2Humble), ("ros1", Semantics::Ros1)];
+const MODES: [(&str, Mode); 4] = [
+    ("trinary", Mode::Trinary),
+    ("scale", Mode::Scale),
+    ("raw", Mode::Raw),
+    ("probability", Mode::Probability),
+];
+const ENCODINGS: [(&str, ArrayEncoding); 4] = [
+    ("probability", ArrayEncoding::Probability),
+    ("percent", ArrayEncoding::Percent),
+    ("log-odds", ArrayEncoding::LogOdds),
+    ("mrpt", ArrayEncoding::Mrpt),
+];
+
 /// Read a map, for whose kind `_files.py` has found the arguments fit.
 #[pyfunction]
 #[pyo3(signature = (
@@ -110,30 +119,9 @@ pub(crate) fn read_map(
     topic: Option<String>,
     max_cells: Option<u64>,
 ) -> PyResult<PyMap> {
-    let semantics = match semantics {
-        None | Some("nav2") => Semantics::Nav2,
-        Some("nav2-humble") => Semantics::Nav2Humble,
-        Some("ros1") => Semantics::Ros1,
-        Some(semantics) => return Err(choice("semantics", semantics, "'nav2', 'nav2-humble' and 'ros1'")),
-    };
-    let mode = match mode {
-        None => None,
-        Some("trinary") => Some(Mode::Trinary),
-        Some("scale") => Some(Mode::Scale),
-        Some("raw") => Some(Mode::Raw),
-        Some("probability") => Some(Mode::Probability),
-        Some(mode) => return Err(choice("mode", mode, "'trinary', 'scale', 'raw' and 'probability'")),
-    };
-    let encoding = match encoding {
-        None => None,
-        Some("probability") => Some(ArrayEncoding::Probability),
-        Some("percent") => Some(ArrayEncoding::Percent),
-        Some("log-odds") => Some(ArrayEncoding::LogOdds),
-        Some("mrpt") => Some(ArrayEncoding::Mrpt),
-        Some(encoding) => {
-            return Err(choice("encoding", encoding, "'probability', 'percent', 'log-odds' and 'mrpt'"));
-        }
-    };
+    let semantics = semantics.map_or(Ok(Semantics::Nav2), |word| one_of("semantics", word, &SEMANTICS))?;
+    let mode = mode.map(|word| one_of("mode", word, &MODES)).transpose()?;
+    let encoding = encoding.map(|word| one_of("encoding", word, &ENCODINGS)).transpose()?;
     let options = Options { semantics, mode, unknown, encoding, resolution, max_cells };
     let map = if bags::is_bag(&path) {
         let topic = MapTopic { name: topic, costmaps: false };
@@ -154,17 +142,20 @@ fn as_python(py: Python<'_>, map: Map) -> PyResult<PyMap> {
         Cells::LogOdds32(_) | Cells::LogOdds64(_) => "log-odds",
     };
     let (cells, tally, measures) = watched(py, move || {
-        let tally = with_grid!(&cells, grid => PyTally::from(grid.tally()));
-        let measures = Measures::of(&cells);
+        let (tally, measures) = with_grid!(&cells, grid => {
+            let tally = grid.tally();
+            let measures = Measures::of_tallied(grid, &tally);
+            (PyTally::from(tally), measures)
+        });
         (cells, tally, measures)
     })?;
-    let not_meaningful = measures.noticing(&warnings).not_meaningful;
+    let not_meaningful = measures.noticing(&warnings).warning();
     let (array, origin) = with_grid!(&cells, grid => {
         let array = PyArray1::from_slice(py, grid.cells()).reshape([grid.height(), grid.width()])?;
         (array.into_any().unbind(), grid.geometry().origin().into())
     });
     let tally = Py::new(py, tally)?;
     let mut warnings = words(&warnings);
-    warnings.extend(not_meaningful.map(|why| why.warning().to_owned()));
+    warnings.extend(not_meaningful);
     Ok(PyMap { cells: array, encoding: encoding.to_owned(), resolution, origin, tally, warnings })
 }

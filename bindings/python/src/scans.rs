@@ -1,8 +1,7 @@
 //! Logs of range scans and trajectories, read.
 
-use crate::errors::{count, in_python, of_file, refused};
+use crate::errors::{count, in_python, of_file, one_of, refused};
 use crate::interruptible::run;
-use crate::limit::choice;
 use crate::pickled::{Made, made};
 use crate::trajectory::{PyTrajectory, numbers};
 use mean_information::scan::Pose;
@@ -112,11 +111,7 @@ impl PyRangeScan {
     /// ndarray of float64, shape (n,)
     #[pyo3(signature = (*, no_return="left-out"))]
     fn beams<'py>(&self, py: Python<'py>, no_return: &str) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let without = match no_return {
-            "left-out" => f64::NAN,
-            "free" => f64::INFINITY,
-            _ => return Err(choice("no_return", no_return, "'left-out' and 'free'")),
-        };
+        let without = one_of("no_return", no_return, &[("left-out", f64::NAN), ("free", f64::INFINITY)])?;
         let ranges = self.0.readings().map(|reading| match reading {
             Reading::Return(range) => range,
             Reading::NoReturn => without,
@@ -228,9 +223,10 @@ pub(crate) fn read_scans(
             let words = format!("{}: time is '{time}', which is for CARMEN logs", path.display());
             return Err(PyValueError::new_err(words));
         }
-        None | Some("sent") => TimeField::Sent,
-        Some("logged") => TimeField::Logged,
-        Some(time) => return Err(choice("time", time, "'sent' and 'logged'")),
+        time => {
+            let named = [("sent", TimeField::Sent), ("logged", TimeField::Logged)];
+            time.map_or(Ok(TimeField::Sent), |word| one_of("time", word, &named))?
+        }
     };
     let options = ScanOptions { maximum_range: max_range, time };
     let log = run(py, |source| read_scans_from(source, &path, &options))?;

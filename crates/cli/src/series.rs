@@ -96,8 +96,7 @@ fn row(map: &Snapshot<'_>, jump: Option<u64>) -> Row {
     let values = (i8::MIN..=i8::MAX).map(|value| (value, histogram.count(value)));
     let values = values.filter(|&(_, count)| count > 0).collect();
     let measures = Measures::of_counts::<Percent>(&Counts { width: map.width, height: map.height, values });
-    let mut warnings: Vec<String> =
-        measures.not_meaningful.map(|why| why.warning().to_owned()).into_iter().collect();
+    let mut warnings: Vec<String> = measures.warning().into_iter().collect();
     if map.change == Change::Frame {
         warnings.push("size, resolution or place differ from the map before".to_owned());
     }

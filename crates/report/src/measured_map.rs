@@ -105,7 +105,7 @@ impl MeasuredMap {
     /// Creates the row of a map that was measured.
     pub fn new<C>(path: &Path, map: Map<C>, measures: Measures) -> Self {
         let mut warnings = in_words(&map.warnings);
-        warnings.extend(measures.not_meaningful.map(|why| why.warning().to_owned()));
+        warnings.extend(measures.warning());
         let Map { resolution, files, .. } = map;
         let name = path.display().to_string();
         Self { name, resolution, measures, is_rectangle: true, tree: None, warnings, files }

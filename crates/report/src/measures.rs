@@ -39,8 +39,13 @@ impl Measures {
 
     /// Measures a grid.
     pub fn of_grid<E: Encoding>(grid: &Grid<E>) -> Self {
+        Self::of_tallied(grid, &grid.tally())
+    }
+
+    /// Takes the measures of a grid from its tally.
+    pub fn of_tallied<E: Encoding>(grid: &Grid<E>, tally: &Tally<E::Float>) -> Self {
         let marked = || grid.cells().iter().any(|&stored| stored == E::unknown());
-        Self::new([grid.width(), grid.height()], &grid.tally(), marked)
+        Self::new([grid.width(), grid.height()], tally, marked)
     }
 
     /// Measures what was read of a map, whose other cells `sums` visited.
@@ -61,12 +66,12 @@ impl Measures {
     /// Takes note of what was noticed when the map was read: sums that were rounded mean nothing, nor do two greys.
     #[must_use]
     pub fn noticing(mut self, warnings: &[Warning]) -> Self {
-        if warnings.iter().any(|warning| matches!(warning, Warning::BesideUnknown { .. })) {
-            self.not_meaningful = self.not_meaningful.or(Some(NotMeaningful::BesideUnknown));
-        }
-        if warnings.iter().any(|warning| matches!(warning, Warning::TwoGreys { .. })) {
-            self.not_meaningful = self.not_meaningful.or(Some(NotMeaningful::TwoValued));
-        }
+        let noticed = warnings.iter().find_map(|warning| match warning {
+            Warning::BesideUnknown { .. } => Some(NotMeaningful::BesideUnknown),
+            Warning::TwoGreys { .. } => Some(NotMeaningful::TwoValued),
+            _ => None,
+        });
+        self.not_meaningful = self.not_meaningful.or(noticed);
         self
     }
 
@@ -117,6 +122,11 @@ impl Measures {
             self.mean_information.map_or("none".to_owned(), |x| format!("{x} bits per observed cell"));
         let reason = self.not_meaningful.map(|why| format!(" (not meaningful: {})", why.reason()));
         format!("mean information: {number}{}", reason.unwrap_or_default())
+    }
+
+    /// Returns the sentence that says why the mean information means nothing, if so.
+    pub fn warning(&self) -> Option<String> {
+        self.not_meaningful.map(|why| why.warning().to_owned())
     }
 
     /// Returns the number of cells with `p != 1/2`.

@@ -101,7 +101,7 @@ impl MeasuredTree {
         let tree = read(&mut cells)?;
         let measures = Measures::of_octree(&cells.tally, !cells.values.has_more);
         let mut warnings = in_words(&tree.warnings);
-        warnings.extend(measures.not_meaningful.map(|why| why.warning().to_owned()));
+        warnings.extend(measures.warning());
         Ok(Self { resolution: tree.resolution, leaves: tree.leaves, measures, warnings })
     }
 
@@ -153,7 +153,7 @@ impl MeasuredDepths {
         let finest_first = depths.tallies.iter().rev();
         let measures: Vec<_> = finest_first.map(|tally| Measures::of_octree(tally, has_two_values)).collect();
         let mut warnings = in_words(&tree.warnings);
-        warnings.extend(measures[0].not_meaningful.map(|why| why.warning().to_owned()));
+        warnings.extend(measures[0].warning());
         Ok(Self { resolution: tree.resolution, measures, warnings })
     }
 }

@@ -58,7 +58,7 @@ impl Sweep {
             steps.push(Step { k, measures });
         }
         let mut warnings = in_words(&map.warnings);
-        warnings.extend(steps[0].measures.not_meaningful.map(|why| why.warning().to_owned()));
+        warnings.extend(steps[0].measures.warning());
         Ok(Self { name, resolution: map.resolution, steps, has_depths: false, warnings })
     }
 

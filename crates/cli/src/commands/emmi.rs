@@ -163,7 +163,7 @@ struct Emmi {
 impl Emmi {
     fn warnings(&self) -> Vec<String> {
         let Expected { measures, mean_of_particles, unobserved, .. } = &self.expected;
-        let why = measures.not_meaningful.map(|why| why.warning().to_owned());
+        let why = measures.warning();
         let zeros = (*unobserved > 0 && mean_of_particles.is_some()).then(|| {
             let particles = if *unobserved == 1 { "particle" } else { "particles" };
             format!("{unobserved} {particles} with nothing observed, 0 in the mean of particles")

@@ -56,7 +56,7 @@ impl FilterReport {
     fn record(&self, index: usize, row: &Row) -> Record {
         let Row { step, time, effective, left, expected, mean_of_particles } = row;
         let setup = &self.made.setup;
-        let of_row = expected.not_meaningful.map(|why| why.warning().to_owned());
+        let of_row = expected.warning();
         let of_log = if index == 0 { &*self.made.warnings } else { &[] };
         Record(vec![
             ("step", Value::Count(*step as u64)),

@@ -45,7 +45,7 @@ pub(super) fn of_row(row: &Row, first: &Measured) -> Vec<String> {
     let (observed, first_revisited, first) =
         (row.measures.observed(), first.revisited(), first.tally.observed());
     let part = |count: u64, of: u64| count as f64 / of as f64;
-    let unseen = row.measures.not_meaningful.map(|why| why.warning().to_owned());
+    let unseen = row.measures.warning();
     let once = (observed > 0 && part(row.revisited, observed) < REVISITED).then(|| {
         let seen = match parts {
             0 | 1 => "the cells were seen by one scan alone".to_owned(),

@@ -74,9 +74,9 @@ fn read_image_as<K: Sink>(
     warnings.extend(image.is_jpeg().then_some(Warning::JpegLevels));
     let (cells, found) = if mode == Mode::Probability {
         let table = probability::table(description, &layout, options.unknown)?;
-        let taken = K::take::<Probability<f64>>(image, &table, geometry)?;
-        warnings.extend(two_greys(&taken.1.sums, |sum| table.cell(TableIndex::Opaque(sum))));
-        taken
+        let (cells, found) = K::take::<Probability<f64>>(image, &table, geometry)?;
+        warnings.extend(two_greys(&found.sums, |sum| table.cell(TableIndex::Opaque(sum))));
+        (cells, found)
     } else {
         let table = match options.semantics {
             Semantics::Nav2 => nav2::table,
@@ -85,12 +85,12 @@ fn read_image_as<K: Sink>(
         };
         warnings.extend(of_image(options.semantics, &image));
         let table = table(description, mode, thresholds, &layout);
-        let taken = K::take::<Percent>(image, &table, geometry)?;
-        if let (Mode::Scale, Some(thresholds), Some(white)) = (mode, thresholds, taken.1.white) {
+        let (cells, found) = K::take::<Percent>(image, &table, geometry)?;
+        if let (Mode::Scale, Some(thresholds), Some(white)) = (mode, thresholds, found.white) {
             let percent = |sum| table.cell(TableIndex::Opaque(sum));
-            warnings.extend(grades_clipped(&taken.1.sums, white, thresholds, percent));
+            warnings.extend(grades_clipped(&found.sums, white, thresholds, percent));
         }
-        taken
+        (cells, found)
     };
     let Found { suspects, sums, white, rest } = found;
     let warning = |(suspect, count): (SuspectGrey, u64)| suspect.warning(count, &layout, mode, description);

@@ -46,6 +46,7 @@
 //! | [`npy`] | NumPy's arrays |
 //! | `npz` | archives of them |
 //! | [`gridmap`] | MRPT's grid maps |
+//! | `kind` | [`FileKind`]: what a file is by the ending of its name |
 //! | `words` | words that a reader does not understand, counted |
 //! | [`octree`] | OctoMap's octrees, visited node by node |
 //! | [`trajectory`] | [`Trajectory`]: poses by their times; TUM text |
@@ -65,6 +66,7 @@ mod cells;
 mod error;
 pub mod gridmap;
 mod image;
+mod kind;
 mod map;
 pub mod npy;
 mod npz;
@@ -84,6 +86,7 @@ mod words;
 
 pub use cells::{Cells, CellsVisitor, Contents, Counted, Counts, Readable};
 pub use error::{Error, ErrorKind, Place};
+pub use kind::FileKind;
 pub use map::Map;
 pub use options::{ArrayEncoding, MAX_CELLS, MAX_COUNTED, Mode, Options, Semantics};
 pub use read::{

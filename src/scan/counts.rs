@@ -1,54 +1,37 @@
 //! Sums of readings of two levels, as counts: how often each cell was told either.
 
-use super::codes::{FREE, OCCUPIED};
+use super::codes::FREE;
 use super::raster::{Area, Raster};
 use super::readings::Readings;
 use crate::error::Error;
 use core::ops::{AddAssign, SubAssign};
 
-/// How often a cell was told free, and how often occupied: the lower and the upper half of an integer.
-pub(super) trait Pair: Copy + PartialEq + AddAssign + SubAssign {
-    /// No count.
-    const NONE: Self;
-    /// The most scans that the counts can hold.
+/// How often a cell was told one thing.
+pub(super) trait Count: Copy + PartialOrd + AddAssign + SubAssign + From<u8> + Into<u32> {
+    /// The most scans that are counted.
     const SCANS: u32;
 
-    /// Joins two counts, which the caller knows to fit.
-    fn new(counts: [u32; 2]) -> Self;
-
-    /// Returns the counts of one reading of a code.
-    fn of(code: u8) -> Self;
-
-    /// Returns both counts.
-    fn counts(self) -> [u32; 2];
+    /// Converts a count that the caller knows to fit.
+    fn new(count: u32) -> Self;
 }
 
-/// Implements [`Pair`] for an integer of twice the bits of `$half`.
-macro_rules! impl_pair {
-    ($pair:ident, $half:ident) => {
-        impl Pair for $pair {
-            const NONE: Self = 0;
-            const SCANS: u32 = $half::MAX as u32;
+impl Count for u16 {
+    const SCANS: u32 = Self::MAX as u32;
 
-            fn new([free, occupied]: [u32; 2]) -> Self {
-                $pair::from(free as $half) | $pair::from(occupied as $half) << $half::BITS
-            }
-
-            #[inline]
-            fn of(code: u8) -> Self {
-                // The codes are bits.
-                $pair::from(code & FREE) | $pair::from(code & OCCUPIED) << ($half::BITS - 1)
-            }
-
-            #[inline]
-            fn counts(self) -> [u32; 2] {
-                [u32::from(self as $half), u32::from((self >> $half::BITS) as $half)]
-            }
-        }
-    };
+    #[inline]
+    fn new(count: u32) -> Self {
+        count as Self
+    }
 }
-impl_pair!(u32, u16);
-impl_pair!(u64, u32);
+
+impl Count for u32 {
+    const SCANS: u32 = Self::MAX;
+
+    #[inline]
+    fn new(count: u32) -> Self {
+        count
+    }
+}
 
 /// For each cell how often it was told free, and how often occupied, by scans that have one level of log-odds for either.
 ///
@@ -57,18 +40,26 @@ impl_pair!(u64, u32);
 pub(super) struct Counts<C> {
     /// The levels below and above 0, in units of `2^-80` nats; 0 before there is one.
     levels: [i128; 2],
-    cells: Raster<C>,
+    /// How often each cell was told free, but for the last scans; and how often by those, in bytes, which add 16 cells at once.
+    free: Raster<C>,
+    lately: Raster<u8>,
+    /// How many scans those are, some of which may be taken out again: no byte is more.
+    late: u8,
+    /// How often each cell was told occupied.
+    occupied: Raster<C>,
     /// The number of scans learned, those taken out again included: no count is more.
     scans: u32,
 }
 
-impl<C: Pair> Counts<C> {
+impl<C: Count> Counts<C> {
     /// Creates the counts of an area, all 0.
     ///
     /// # Errors
     /// [`Error::TooManyCells`] if there are more cells than the limit, or no memory for them.
     pub(super) fn new(area: Area, limit: u64) -> Result<Self, Error> {
-        Ok(Self { levels: [0; 2], cells: Raster::new(area, C::NONE, limit)?, scans: 0 })
+        let raster = || Raster::new(area, C::new(0), limit);
+        let lately = Raster::new(area, 0, limit)?;
+        Ok(Self { levels: [0; 2], free: raster()?, lately, late: 0, occupied: raster()?, scans: 0 })
     }
 
     /// Makes room for the area `whole`, of which only `used` has counts so far.
@@ -76,19 +67,24 @@ impl<C: Pair> Counts<C> {
     /// # Errors
     /// [`Error::TooManyCells`] if `whole` exceeds the limit, or there is no memory; then nothing changes.
     pub(super) fn make_room(&mut self, used: Area, whole: Area, limit: u64) -> Result<(), Error> {
-        self.cells.make_room(used, whole, C::NONE, limit)
+        self.lately.make_room(used, whole, 0, limit)?;
+        for cells in [&mut self.free, &mut self.occupied] {
+            cells.make_room(used, whole, C::new(0), limit)?;
+        }
+        Ok(())
     }
 
     /// Copies the counts of an area into integers of another width, in which they fit.
     ///
     /// # Errors
     /// [`Error::TooManyCells`] if there are more cells than the limit, or no memory for them.
-    pub(super) fn copied<D: Pair>(&self, area: Area, limit: u64) -> Result<Counts<D>, Error> {
-        let mut cells = Raster::new(area, D::NONE, limit)?;
-        for (index, counts) in self.cells.rows(area).flatten().enumerate() {
-            cells.set(index, D::new(counts.counts()));
+    pub(super) fn copied<D: Count>(&self, area: Area, limit: u64) -> Result<Counts<D>, Error> {
+        let mut copies = Counts::new(area, limit)?;
+        for (index, [free, occupied]) in self.counts(area).enumerate() {
+            copies.free.set(index, D::new(free));
+            copies.occupied.set(index, D::new(occupied));
         }
-        Ok(Counts { levels: self.levels, cells, scans: self.scans })
+        Ok(Counts { levels: self.levels, scans: self.scans, ..copies })
     }
 
     /// Tells whether another scan may be more than the counts can hold.
@@ -125,7 +121,26 @@ impl<C: Pair> Counts<C> {
 
     /// Adds readings that were [learned](Self::learn), of cells within the area.
     pub(super) fn add(&mut self, readings: &Readings) {
-        self.change(readings, |counts, one| *counts += one);
+        if self.late == u8::MAX {
+            self.settle();
+        }
+        self.late += 1;
+        for row in readings.area.rows() {
+            let counts = self.lately.row_mut(readings.area, row);
+            for (count, &code) in counts.iter_mut().zip(readings.codes.row(readings.area, row)) {
+                // The codes are bits.
+                *count += code & FREE;
+            }
+        }
+        self.for_each_other(readings, |count| *count += C::from(1));
+    }
+
+    /// Adds what the last scans told to what all others did.
+    fn settle(&mut self) {
+        for (free, lately) in self.free.all_mut().iter_mut().zip(self.lately.all_mut()) {
+            *free += C::from(core::mem::take(lately));
+        }
+        self.late = 0;
     }
 
     /// Takes readings out; if counts are less than those told, none is changed, and the answer is false.
@@ -134,43 +149,66 @@ impl<C: Pair> Counts<C> {
             return false;
         }
         let mut are_held = true;
-        self.change(readings, |counts, one| {
-            let [held, told] = [counts.counts(), one.counts()];
-            are_held &= held[0] >= told[0] && held[1] >= told[1];
+        self.for_each_free(readings, |free, lately, told| {
+            are_held &= told == 0 || *lately > 0 || *free > C::from(0);
         });
+        self.for_each_other(readings, |count| are_held &= *count > C::from(0));
         if are_held {
-            self.change(readings, |counts, one| *counts -= one);
+            self.for_each_free(readings, |free, lately, told| {
+                let late = told.min(*lately);
+                *lately -= late;
+                *free -= C::from(told - late);
+            });
+            self.for_each_other(readings, |count| *count -= C::from(1));
         }
         are_held
     }
 
-    /// Calls `change` with the counts of each cell that has a reading, and those of the reading; for others perhaps with none.
+    /// Calls `each` with both free counts of each cell that is told free, and 1; of others perhaps with 0.
     #[inline]
-    fn change(&mut self, readings: &Readings, mut change: impl FnMut(&mut C, C)) {
+    fn for_each_free(&mut self, readings: &Readings, mut each: impl FnMut(&mut C, &mut u8, u8)) {
         for row in readings.area.rows() {
-            let counts = self.cells.row_mut(readings.area, row);
+            let (free, lately) =
+                (self.free.row_mut(readings.area, row), self.lately.row_mut(readings.area, row));
             let (start, codes) = readings.told(row);
-            for (counts, &code) in counts[start..].iter_mut().zip(codes) {
-                change(counts, C::of(code));
+            for ((free, lately), &code) in free[start..].iter_mut().zip(&mut lately[start..]).zip(codes) {
+                each(free, lately, code & FREE);
             }
         }
-        for reading in &readings.others {
-            let code = if reading.log_odds < 0 { FREE } else { OCCUPIED };
-            change(self.cells.cell_mut(reading.cell), C::of(code));
+    }
+
+    /// Calls `each` with the count of each cell that is told occupied, or has a reading of its own.
+    #[inline]
+    fn for_each_other(&mut self, readings: &Readings, mut each: impl FnMut(&mut C)) {
+        for &index in &readings.occupied {
+            each(self.occupied.cell_mut(readings.codes.cell_at(index)));
         }
+        for reading in &readings.others {
+            let counts = if reading.log_odds < 0 { &mut self.free } else { &mut self.occupied };
+            each(counts.cell_mut(reading.cell));
+        }
+    }
+
+    /// Returns how often each cell of an area was told free, and how often occupied, row by row from the lowest.
+    fn counts(&self, area: Area) -> impl Iterator<Item = [u32; 2]> {
+        let [free, occupied] = [&self.free, &self.occupied].map(|counts| counts.rows(area).flatten());
+        let free = free.zip(self.lately.rows(area).flatten());
+        free.zip(occupied)
+            .map(|((&free, &lately), &occupied)| [free.into() + u32::from(lately), occupied.into()])
     }
 
     /// Computes the sum of log-odds of counts, and that of their magnitudes: below `2^33 40 2^80`.
     #[inline]
-    fn pair(&self, counts: C) -> (i128, i128) {
-        let ([free, occupied], [below, above]) = (counts.counts().map(i128::from), self.levels);
+    fn pair(&self, counts: [u32; 2]) -> (i128, i128) {
+        let ([free, occupied], [below, above]) = (counts.map(i128::from), self.levels);
         let (below, above) = (free * below, occupied * above);
         (above + below, above - below)
     }
 
-    /// Returns the sum of log-odds of a cell of the raster.
+    /// Returns the sum of log-odds of a cell of the rasters.
     pub(super) fn sum_of(&self, cell: [i64; 2]) -> i128 {
-        self.pair(*self.cells.cell(cell)).0
+        let free = (*self.free.cell(cell)).into() + u32::from(*self.lately.cell(cell));
+        self.pair([free, (*self.occupied.cell(cell)).into()]).0
     }
 
     /// Returns runs of cells of one sum, with their lengths, of the columns of a row of an area.
@@ -180,66 +218,87 @@ impl<C: Pair> Counts<C> {
         row: i64,
         columns: core::ops::Range<usize>,
     ) -> impl Iterator<Item = (i128, u64)> {
-        let runs = self.cells.row(area, row)[columns].chunk_by(|a, b| a == b);
-        runs.map(|run| (self.pair(run[0]).0, run.len() as u64))
+        let [free, occupied] =
+            [&self.free, &self.occupied].map(|counts| &counts.row(area, row)[columns.clone()]);
+        let lately = &self.lately.row(area, row)[columns];
+        let counts =
+            move |k: usize| Some([(*free.get(k)?).into() + u32::from(lately[k]), occupied[k].into()]);
+        let mut end = 0;
+        core::iter::from_fn(move || {
+            let (start, first) = (end, counts(end)?);
+            while counts(end) == Some(first) {
+                end += 1;
+            }
+            Some((self.pair(first).0, (end - start) as u64))
+        })
     }
 
     /// Returns the sum of log-odds of each cell of an area, and that of their magnitudes, row by row from the lowest.
     pub(super) fn pairs(&self, area: Area) -> impl Iterator<Item = (i128, i128)> {
-        self.cells.rows(area).flatten().map(|&counts| self.pair(counts))
+        self.counts(area).map(|counts| self.pair(counts))
     }
 
     /// Tells whether the cells of `area` that are not in `inner` were told nothing; without an inner area, all cells.
     pub(super) fn are_within(&self, area: Area, inner: Option<Area>) -> bool {
-        self.cells.is_filled_outside(area, inner, C::NONE)
+        let are_none = |counts: &Raster<C>| counts.is_filled_outside(area, inner, C::new(0));
+        are_none(&self.free) && are_none(&self.occupied) && self.lately.is_filled_outside(area, inner, 0)
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::codes::NOTHING;
     use super::*;
-    use proptest::prelude::*;
-
-    proptest! {
-        #[test]
-        fn pairs_hold_their_counts(free in any::<u16>(), occupied in any::<u16>()) {
-            let counts = [free, occupied].map(u32::from);
-            prop_assert_eq!((u32::new(counts).counts(), u64::new(counts).counts()), (counts, counts));
-            let wide = counts.map(|count| count << 15);
-            prop_assert_eq!(u64::new(wide).counts(), wide);
-        }
-    }
-
-    #[test]
-    fn codes_are_one_reading() {
-        for (code, counts) in [(NOTHING, [0, 0]), (FREE, [1, 0]), (OCCUPIED, [0, 1])] {
-            assert_eq!((u32::of(code).counts(), u64::of(code).counts()), (counts, counts));
-        }
-    }
+    use alloc::vec::Vec;
 
     /// No count is lost where there are as many scans as the counts can hold, and one more.
     #[test]
     fn counts_are_full_before_they_overflow() {
         let area = Area::of_cell([3, -2]);
         let codes = Raster::new(area, FREE, 1).unwrap();
-        let readings = Readings { area, codes, levels: [-7, 0], others: alloc::vec::Vec::new() };
-        let mut counts = Counts::<u32>::new(area, 1).unwrap();
+        let readings = Readings { area, codes, levels: [-7, 0], occupied: Vec::new(), others: Vec::new() };
+        let mut counts = Counts::<u16>::new(area, 1).unwrap();
         while !counts.are_full() {
             assert!(counts.learn(&readings));
             counts.add(&readings);
         }
         assert_eq!(counts.sum_of([3, -2]), -7 * i128::from(u16::MAX));
-        let mut wider: Counts<u64> = counts.copied(area, 1).unwrap();
+        let mut wider: Counts<u32> = counts.copied(area, 1).unwrap();
         assert!(!wider.are_full() && wider.learn(&readings));
         wider.add(&readings);
         assert_eq!(wider.sum_of([3, -2]), -7 << 16);
         assert!(wider.take(&readings) && counts.take(&readings));
         assert_eq!(wider.sum_of([3, -2]), counts.sum_of([3, -2]) - 7);
         // More than it was told, and of a level that it was not told.
-        let mut empty = Counts::<u32>::new(area, 1).unwrap();
+        let mut empty = Counts::<u16>::new(area, 1).unwrap();
         assert!(!empty.take(&readings) && empty.learn(&readings) && !empty.take(&readings));
         let codes = Raster::new(area, FREE, 1).unwrap();
-        assert!(!wider.take(&Readings { area, codes, levels: [-8, 0], others: alloc::vec::Vec::new() }));
+        assert!(!wider.take(&Readings {
+            area,
+            codes,
+            levels: [-8, 0],
+            occupied: Vec::new(),
+            others: Vec::new()
+        }));
+    }
+
+    /// What more scans told than a byte counts is taken out again, of both parts, and no more than that.
+    #[test]
+    fn both_parts_of_a_count_are_taken_out() {
+        let area = Area::of_cell([3, -2]);
+        let codes = Raster::new(area, FREE, 1).unwrap();
+        let readings = Readings { area, codes, levels: [-7, 0], occupied: Vec::new(), others: Vec::new() };
+        let mut counts = Counts::<u16>::new(area, 1).unwrap();
+        for told in 1..=300 {
+            assert!(counts.learn(&readings));
+            counts.add(&readings);
+            assert_eq!(counts.sum_of([3, -2]), -7 * told);
+            assert_eq!(counts.runs(area, -2, 0..1).collect::<Vec<_>>(), [(-7 * told, 1)]);
+        }
+        for left in (0..300).rev() {
+            assert!(counts.take(&readings));
+            assert_eq!(counts.pairs(area).collect::<Vec<_>>(), [(-7 * left, 7 * left)]);
+            assert_eq!(counts.are_within(area, None), left == 0);
+        }
+        assert!(!counts.take(&readings));
     }
 }

@@ -46,7 +46,7 @@ impl Ends {
 fn decided(x: f64, scale: f64) -> Option<i64> {
     // Floats from here on are integers, and a sum is rounded to one.
     const INTEGERS: f64 = 1.5 * (1_u64 << 52) as f64;
-    let nearest = ((x + INTEGERS) - INTEGERS) as i64;
+    let nearest = (x + INTEGERS).to_bits().wrapping_sub(INTEGERS.to_bits()) as i64;
     let error = scale * (1.0 / (1_u64 << 49) as f64) + 1.0 / 1024.0;
     // An error of less than 1/8 where it is true; not so for NaN. Compared with the integer, as units of more bits round no sum to one.
     let is_decided = scale < (1_u64 << 45) as f64 && (x - nearest as f64).abs() < 0.5 - error;

@@ -40,7 +40,7 @@ impl Fans {
     /// Begins a scan whose bearings rise from beam to beam, or fall.
     fn new(is_clockwise: bool) -> Self {
         // Counter-clockwise, slopes rise where x does, and fall where it falls; across, the other way round.
-        let signs = [-1.0, 1.0, 1.0, -1.0];
+        let signs = [1.0, -1.0, -1.0, 1.0];
         let signs = if is_clockwise { signs.map(|sign: f64| -sign) } else { signs };
         Self { signs, swept: [f64::NEG_INFINITY; 4], is_chain: false }
     }
@@ -65,7 +65,7 @@ impl Fans {
         // As many columns as cells of distance from the sensor, and a steep beam goes across a part of a cell within a column.
         let apart = 1.0 + lower.max(-upper).max(0.0) - SLOPE_ERROR;
         let columns = apart / (upper - lower + SLOPE_ERROR);
-        beam.sure_columns().min(next.sure_columns()).min(columns as u64)
+        beam.sure_columns().min(next.sure_columns()).min(columns as i64 as u64)
     }
 }
 
@@ -74,9 +74,9 @@ mod tests {
     use super::super::codes::FREE;
     use super::super::columns::Canvas;
     use super::super::direction::Direction;
-    use super::super::lattice::{FRACTION, Point};
+    use super::super::lattice::{FRACTION, Point, cell_of};
     use super::super::raster::Area;
-    use super::super::traversal::{Traversal, cell_of};
+    use super::super::traversal::Traversal;
     use super::*;
     use alloc::vec::Vec;
     use proptest::collection::vec;
@@ -130,7 +130,8 @@ mod tests {
             let mut canvas = Canvas::new(area, u64::MAX).unwrap();
             let mut expected = BTreeSet::new();
             for ((track, shared), end) in tracks.iter().zip(shares(&tracks, is_clockwise)).zip(ends) {
-                let rest: Vec<_> = track.draw(shared, &mut canvas).collect();
+                track.draw(shared, &mut canvas);
+                let rest: Vec<_> = track.rest().flat_map(|column| track.cells(column)).map(|(cell, _)| cell).collect();
                 let all: Vec<_> = Traversal::new(start, end).collect();
                 prop_assert_eq!(&rest[..], &all[all.len() - rest.len()..]);
                 expected.extend(all[..all.len() - rest.len()].iter().copied());

@@ -63,11 +63,10 @@ impl Print {
     /// Mixes words into a print, in their order.
     #[inline]
     pub(super) fn of(words: &[u64]) -> Self {
-        // Multiplications and shifts as in the finalizer of MurmurHash3 (Appleby, public domain).
+        // Both halves of a product have bits of all of the word.
         let mixed = words.iter().fold(0x9e37_79b9_7f4a_7c15_u64, |print, word| {
-            let print = (print ^ word).wrapping_mul(0xff51_afd7_ed55_8ccd);
-            let print = (print ^ print >> 33).wrapping_mul(0xc4ce_b9fe_1a85_ec53);
-            print ^ print >> 29
+            let product = u128::from(print ^ word) * 0xff51_afd7_ed55_8ccd;
+            product as u64 ^ (product >> 64) as u64
         });
         Self(mixed)
     }

@@ -21,12 +21,18 @@ pub(super) struct Lattice {
     /// The resolution is `m 2^exponent`, `2^52 <= m < 2^53`, and this is `floor(2^179 / m)`: above `2^126`.
     inverse: u128,
     exponent: i32,
-    /// The number of units of a metre, less up to a part in `2^49`.
-    units_per_metre: f64,
+    /// The number of units of a metre, less up to a part in `2^49`, and more up to that.
+    units_per_metre: [f64; 2],
 }
 
 /// A point of the lattice: x and y.
 pub(super) type Point = [i64; 2];
+
+/// Finds the cell that holds a point.
+#[inline]
+pub(super) fn cell_of(point: Point) -> [i64; 2] {
+    point.map(|x| x >> FRACTION)
+}
 
 impl Lattice {
     /// Creates the lattice of a resolution that is positive and finite.
@@ -37,8 +43,11 @@ impl Lattice {
         let (high, rest) = ((1 << 127) / m, (1 << 127) % m);
         // Next to the largest float and to the smallest, where it has fewer bits, there are no units within a metre.
         let units = UNITS / resolution;
-        let units_per_metre =
-            if units.is_normal() && units < f64::MAX { units * (1.0 - 6.0 * f64::EPSILON) } else { 0.0 };
+        let units_per_metre = if units.is_normal() && units < f64::MAX {
+            [1.0 - 6.0 * f64::EPSILON, 1.0 + 6.0 * f64::EPSILON].map(|part| units * part)
+        } else {
+            [0.0, f64::INFINITY]
+        };
         Self { resolution, inverse: (high << 52) + (rest << 52) / m, exponent, units_per_metre }
     }
 
@@ -118,28 +127,29 @@ impl Lattice {
     #[inline]
     pub(super) fn units_within(self, metres: f64) -> u64 {
         // Three roundings up by half an ulp each, at most.
-        ((metres * self.units_per_metre) as i64).clamp(0, 2 * END as i64) as u64
+        ((metres * self.units_per_metre[0]) as i64).clamp(0, 2 * END as i64) as u64
     }
 
-    /// Converts metres to the square of units that are no fewer, for a comparison with
-    /// [`square_to_centre`](Self::square_to_centre): at most a part in `2^49` and two units more; the largest integer from `2^62`
-    /// units on, and for an infinity; 0 below 0, and for NaN.
+    /// Returns a square such that a distance is at most so many metres if its square in units, computed within a part in `2^51`, is at
+    /// most that: 0 below 0, and for NaN.
     #[inline]
-    pub(super) fn square_beyond(self, metres: f64) -> u128 {
-        if metres.is_nan() || metres <= 0.0 {
-            return 0;
-        }
-        let units = self.units_within(metres);
-        if units == 2 * END || self.units_per_metre == 0.0 {
-            return u128::MAX;
-        }
-        let units = u128::from(units + (units >> 49) + 2);
+    pub(super) fn square_within(self, metres: f64) -> f64 {
+        let units = metres.max(0.0) * self.units_per_metre[0];
+        units * units
+    }
+
+    /// Returns a square such that a distance is no less than so many metres if its square in units, computed within a part in `2^51`, is
+    /// no less than that: an infinity where there is none, or NaN.
+    #[inline]
+    pub(super) fn square_beyond(self, metres: f64) -> f64 {
+        // Where units are below the smallest normal number, two of them make up for it.
+        let units = metres.max(0.0) * self.units_per_metre[1] + 2.0;
         units * units
     }
 
     /// Computes the square of the distance of a point from the centre of a cell, in units: exactly, below `2^125`.
     #[inline]
-    pub(super) fn square_to_centre(from: Point, cell: [i64; 2]) -> u128 {
+    fn square_to_centre(from: Point, cell: [i64; 2]) -> u128 {
         // Below 2^62 each: no product leaves 128 bits, and nothing is rounded.
         let [x, y] = offset_of_centre(from, cell);
         let square = |offset: i64| u128::from(offset.unsigned_abs()) * u128::from(offset.unsigned_abs());
@@ -307,31 +317,20 @@ mod tests {
             prop_assert!(more * big(resolution) >= exact);
         }
 
-        /// No nearer than the metres, and further by two units and two parts in `2^49` at most.
+        /// As the distance says, which is a float, with the square off by as much as it may be; and no further than that, two units and
+        /// parts in `2^48`.
         #[test]
-        fn squares_are_beyond_their_metres(metres in small(), resolution in prop_oneof![0.1_f64..10.0, Just(0.25)]) {
-            let square = BigInt::from(Lattice::new(resolution).square_beyond(metres));
-            let big = |x: f64| {
-                let (m, e) = x.parts();
-                BigInt::from(m) << (e + 1074)
-            };
-            let exact = big(metres.max(0.0)) << FRACTION;
-            prop_assert!(&square * big(resolution).pow(2) >= exact.pow(2));
-            let less = square.sqrt() - 2;
-            prop_assert!(&less - (&less >> 48) <= exact / big(resolution));
-        }
-
-        /// As the distance says, which is a float: but for what it rounds.
-        #[test]
-        fn squares_are_those_of_distances(x in -1_i64 << 40..1 << 40, y in -1_i64 << 40..1 << 40, column in -99_i64..99, row in -99_i64..99, metres in 0.0_f64..40.0) {
+        fn squares_are_those_of_distances(x in -1_i64 << 40..1 << 40, y in -1_i64 << 40..1 << 40, column in -99_i64..99, row in -99_i64..99, metres in prop_oneof![0.0_f64..40.0, Just(-1.0)], is_there in any::<bool>(), step in 0_usize..3) {
             let lattice = Lattice::new(0.3);
-            let square = Lattice::square_to_centre([x, y], [column, row]);
             let rho = lattice.distance_to_centre([x, y], [column, row]);
-            let units = u128::from(lattice.units_within(metres));
-            prop_assert!(square > units * units || rho <= metres);
-            prop_assert!(square < lattice.square_beyond(metres) || rho >= metres);
-            prop_assert!(square > units * units || square <= lattice.square_beyond(metres));
-            prop_assert!(square <= units * units || rho >= metres - 1e-8);
+            let metres = if is_there { [rho.next_down(), rho, rho.next_up()][step] } else { metres };
+            let exact = Lattice::square_to_centre([x, y], [column, row]) as f64;
+            for square in [exact * (1.0 - 2.0 * f64::EPSILON), exact, exact * (1.0 + 2.0 * f64::EPSILON)] {
+                let (within, beyond) = (lattice.square_within(metres), lattice.square_beyond(metres));
+                prop_assert!(square > within || rho <= metres);
+                prop_assert!(square < beyond || rho >= metres);
+                prop_assert!(square <= within || square >= beyond || (rho - metres.max(0.0)).abs() < 4e-9 + 1e-14 * rho);
+            }
         }
     }
 
@@ -357,13 +356,19 @@ mod tests {
         let lattice = Lattice::new(0.3);
         let units = [f64::NAN, -3.0, 0.0, f64::INFINITY, f64::MAX].map(|metres| lattice.units_within(metres));
         assert_eq!(units, [0, 0, 0, 1 << 62, 1 << 62]);
-        let beyond =
-            [f64::NAN, -3.0, 0.0, f64::INFINITY, f64::MAX].map(|metres| lattice.square_beyond(metres));
-        assert_eq!(beyond, [0, 0, 0, u128::MAX, u128::MAX]);
-        for resolution in [f64::from_bits(1), 1e-310, f64::MAX] {
-            let beyond = Lattice::new(resolution).square_beyond(resolution);
-            assert!(beyond >= 1 << (2 * FRACTION), "{resolution:e}");
+        let ends = |metres| (lattice.square_within(metres), lattice.square_beyond(metres));
+        assert_eq!([f64::NAN, -3.0, 0.0].map(ends), [(0.0, 4.0); 3]);
+        assert_eq!(ends(f64::INFINITY), (f64::INFINITY, f64::INFINITY));
+        // No units, of which a square would be more than another.
+        for resolution in [f64::from_bits(1), 1e-310] {
+            let lattice = Lattice::new(resolution);
+            assert_eq!(
+                (lattice.square_within(resolution), lattice.square_beyond(resolution)),
+                (0.0, f64::INFINITY)
+            );
+            assert!(lattice.square_beyond(0.0).is_nan());
         }
+        assert!(Lattice::new(f64::MAX).square_beyond(f64::MAX) >= f64::from_parts(1, 2 * FRACTION as i32));
         assert_eq!(Lattice::square_to_centre([1 << 27, 1 << 27], [0, 0]), 0);
         // 3, 4, 5.
         assert_eq!(Lattice::square_to_centre([(1 << 27) - 3, (1 << 27) + 4], [0, 0]), 25);

@@ -29,6 +29,7 @@ mod inserted;
 mod jackknife;
 mod lattice;
 mod layer;
+mod levels;
 mod measures;
 mod particles;
 mod pose;
@@ -42,6 +43,7 @@ mod stretches;
 mod sums;
 mod tallied;
 mod totals;
+#[cfg(test)]
 mod traversal;
 
 pub use beams::{Beam, Scan};

@@ -165,11 +165,10 @@ impl<C: Copy> Raster<C> {
         (row - self.area.low[1]) as usize * width + (column - self.area.low[0]) as usize
     }
 
-    /// Returns how far it is in the raster to the next cell along an axis, or back.
+    /// Returns how far it is in the raster to the next cell along an axis.
     #[inline]
-    pub(super) fn stride(&self, axis: usize, is_forward: bool) -> isize {
-        let stride = if axis == 0 { 1 } else { self.area.size()[0] as isize };
-        if is_forward { stride } else { -stride }
+    pub(super) fn stride(&self, axis: usize) -> isize {
+        if axis == 0 { 1 } else { self.area.size()[0] as isize }
     }
 
     /// Sets the value at a place in the raster.
@@ -179,6 +178,7 @@ impl<C: Copy> Raster<C> {
     }
 
     /// Returns the value at a place in the raster.
+    #[inline]
     pub(super) fn at(&self, index: usize) -> C {
         self.cells[index]
     }
@@ -208,6 +208,14 @@ impl<C: Copy> Raster<C> {
     /// Returns the rows of an area that the raster must hold, from the lowest.
     pub(super) fn rows(&self, area: Area) -> impl Iterator<Item = &[C]> {
         (area.low[1]..area.high[1]).map(move |row| self.row(area, row))
+    }
+}
+
+impl Raster<u8> {
+    /// Sets bits of the value at a place in the raster.
+    #[inline]
+    pub(super) fn add_bits(&mut self, index: usize, bits: u8) {
+        self.cells[index] |= bits;
     }
 }
 

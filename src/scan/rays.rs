@@ -7,10 +7,10 @@ use super::distances::Distances;
 use super::ends::Ends;
 use super::fans::{is_clockwise, shares};
 use super::inserted::Print;
-use super::lattice::{FRACTION, Lattice, Point};
+use super::lattice::{FRACTION, Lattice, Point, cell_of};
+use super::levels::Levels;
 use super::raster::Area;
 use super::readings::{Drafts, Limit, Readings};
-use super::traversal::cell_of;
 use crate::cell;
 use crate::error::Error;
 use crate::real::Real;
@@ -25,26 +25,21 @@ pub(super) struct Rays<M: InverseSensorModel> {
     start: Point,
     /// The rectangle that holds the cells of the start and of all ends.
     area: Area,
+    print: Print,
+    /// The occupancy with which free cells are drawn: that of the first beam that has such cells; NaN if none has.
+    free: M::Float,
+    /// For each beam its cells, of which those at the occupancy `free` are marked, and what it says.
+    tracks: Vec<Track>,
     segments: Vec<Segment<M>>,
     /// True if bearings mostly fall from beam to beam.
     is_clockwise: bool,
 }
 
-/// A beam on the lattice.
+/// What a beam says.
 struct Segment<M: InverseSensorModel> {
-    end: Point,
+    levels: Levels<M::Float>,
     model: M,
     is_return: bool,
-    /// The occupancy of cells whose centre is at most `plateau` units of the lattice from the sensor.
-    nearest: M::Float,
-    plateau: u64,
-    /// Cells that the segment leaves within so many units along its longer axis are among them.
-    sure: u64,
-    /// The squares of the distances from and to which cells have the occupancy `wall`, in units; 1 to 0 if there are none.
-    obstacle: [u128; 2],
-    wall: M::Float,
-    /// The square of a distance beyond which nothing is observed.
-    reach: u128,
 }
 
 /// The part of a cell, in units, within which the centres of cells are that a segment crosses: above `√(1/2)`.
@@ -65,28 +60,28 @@ impl<T: Real, M: InverseSensorModel<Float = T>> Rays<M> {
         let area = Area::of_cell(cell_of(start));
         let beams = scan.beams();
         let is_clockwise = is_clockwise(beams);
-        let segments = Vec::with_capacity(beams.len());
-        let mut rays = Self { lattice, limit, start, area, segments, is_clockwise };
+        let print = Print::of(&start.map(|x| x as u64));
+        let (tracks, segments) = (Vec::with_capacity(beams.len()), Vec::with_capacity(beams.len()));
+        let free = T::nan();
+        let mut rays = Self { lattice, limit, start, area, print, free, tracks, segments, is_clockwise };
         // That of the exact sum of heading and bearing.
         let ends = Ends::new(lattice, start, scan.pose().theta());
         for (index, beam) in beams.iter().enumerate() {
-            let segment = rays.segment(&ends, scan.maximum_range(), beam, &model, index)?;
-            rays.area = rays.area.union(Area::of_cell(cell_of(segment.end)));
-            rays.segments.push(segment);
+            rays.add(&ends, scan.maximum_range(), beam, &model, index)?;
         }
         Ok(rays)
     }
 
-    /// Places one beam, with the model of its range.
+    /// Adds one beam, with the model of its range.
     #[inline]
-    fn segment(
-        &self,
+    fn add(
+        &mut self,
         ends: &Ends,
         maximum_range: T,
         beam: &Beam<T>,
         model: impl Fn(T) -> Result<M, Error>,
         index: usize,
-    ) -> Result<Segment<M>, Error> {
+    ) -> Result<(), Error> {
         let Self { lattice, limit, .. } = *self;
         let range = beam.range;
         let model = model(range.unwrap_or(maximum_range))?;
@@ -113,19 +108,19 @@ impl<T: Real, M: InverseSensorModel<Float = T>> Rays<M> {
         } else {
             (nearest, 0)
         };
-        // The margin has room for what the part lacks.
-        let sure = (plateau.saturating_sub(TO_CENTRE) as f64 * part) as u64;
-        let (obstacle, wall) = match model.obstacle() {
-            Some(([from, to], p)) => {
-                let to = u128::from(lattice.units_within(to.widen()));
-                ([lattice.square_beyond(from.widen()), to * to], p)
-            }
-            None => ([1, 0], T::HALF),
-        };
-        // A distance beyond the next float is beyond this one when it is rounded.
-        let (m, e) = reach.parts();
-        let reach = lattice.square_beyond(T::from_parts(m + 1, e).widen());
-        Ok(Segment { end, model, is_return, nearest, plateau, sure, obstacle, wall, reach })
+        let [x, y] = end.map(|x| x as u64);
+        let words = [x, y, nearest.widen().to_bits(), plateau, u64::from(is_return)];
+        self.print = self.print.together(Print::of(&words));
+        self.area = self.area.union(Area::of_cell(cell_of(end)));
+        // Cells that the segment leaves within so many units along its longer axis; the margin has room for what the part lacks.
+        let sure = (plateau.saturating_sub(TO_CENTRE) as f64 * part) as i64 as u64;
+        if self.free.is_nan() && sure > 0 && nearest < T::HALF && cell::in_unit_interval(nearest) {
+            self.free = nearest;
+        }
+        self.tracks.push(Track::new(self.start, end, if nearest == self.free { sure } else { 0 }));
+        let levels = Levels::new(lattice, &model, reach, nearest, plateau);
+        self.segments.push(Segment { levels, model, is_return });
+        Ok(())
     }
 
     /// Returns the rectangle of cells that the beams cross.
@@ -135,12 +130,7 @@ impl<T: Real, M: InverseSensorModel<Float = T>> Rays<M> {
 
     /// Returns the print of the scan: of its place, and of each beam's end, free space and return, in any order of beams.
     pub(super) fn print(&self) -> Print {
-        let place = Print::of(&self.start.map(|x| x as u64));
-        self.segments.iter().fold(place, |print, segment| {
-            let [x, y] = segment.end.map(|x| x as u64);
-            let nearest = segment.nearest.widen().to_bits();
-            print.together(Print::of(&[x, y, nearest, segment.plateau, u64::from(segment.is_return)]))
-        })
+        self.print
     }
 
     /// Finds what the scan says of each cell, the log-odds limited: each cell once, those at 1/2 left out.
@@ -148,85 +138,95 @@ impl<T: Real, M: InverseSensorModel<Float = T>> Rays<M> {
     /// # Errors
     /// [`Error::Item`] naming a beam whose model gives no occupancy; [`Error::TooManyCells`] if there is no memory.
     pub(super) fn readings(&self, max_cells: u64) -> Result<Readings, Error> {
-        let free = self.free();
-        let mut drafts = Drafts::new(self.area, free, max_cells)?;
-        let refused = |_| Error::too_many_cells(self.area.cells(), max_cells);
-        let tracks = self.tracks(free).map_err(refused)?;
-        let shared = self.shared(&tracks, &drafts.canvas).map_err(refused)?;
-        let mut distances = Distances::new(self.lattice, self.start);
-        for (index, ((segment, track), shared)) in self.segments.iter().zip(&tracks).zip(shared).enumerate() {
-            for cell in track.draw(shared, &mut drafts.canvas) {
-                let p = self.occupancy(segment, cell, &mut distances);
-                if !cell::in_unit_interval(p) {
-                    let what = "occupancy by the model of beam";
-                    return Err(Error::Item { what, index, value: p.widen(), allowed: "0 to 1" });
-                }
-                // A beam without return says where it is free, and nothing else.
-                if p != T::HALF && (segment.is_return || p < T::HALF) {
-                    drafts.say(cell, self.limit.canonical(p));
-                }
+        let mut drafts = Drafts::new(self.area, self.free, max_cells)?;
+        let mut distances = None;
+        let shared =
+            self.shared(&drafts.canvas).map_err(|_| Error::too_many_cells(self.area.cells(), max_cells))?;
+        // One after another, as what a processor guesses wrongly of one beam holds up the others.
+        for (track, &shared) in self.tracks.iter().zip(&shared) {
+            track.draw(shared, &mut drafts.canvas);
+        }
+        for (index, (track, segment)) in self.tracks.iter().zip(&self.segments).enumerate() {
+            if !segment.say_levels(track, &mut drafts) {
+                self.say_rest(index, &mut distances, &mut drafts)?;
             }
         }
         Ok(drafts.readings(&self.limit))
     }
 
-    /// Returns the occupancy with which free cells are drawn: that of the first beam that has such cells; NaN if none has.
-    fn free(&self) -> T {
-        let is_free = |segment: &&Segment<M>| {
-            segment.sure > 0 && segment.nearest < T::HALF && cell::in_unit_interval(segment.nearest)
-        };
-        self.segments.iter().find(is_free).map_or(T::nan(), |segment| segment.nearest)
-    }
-
-    /// Measures the beams, whose sure cells are those at the occupancy `free`.
-    fn tracks(&self, free: T) -> Result<Vec<Track>, TryReserveError> {
-        let track = |segment: &Segment<M>| {
-            let sure = if segment.nearest == free { segment.sure } else { 0 };
-            Track::new(self.start, segment.end, sure)
-        };
-        let mut tracks = Vec::new();
-        tracks.try_reserve_exact(self.segments.len())?;
-        tracks.extend(self.segments.iter().map(track));
-        Ok(tracks)
+    /// Says what a beam says of the cells that are not marked, one by one.
+    fn say_rest(
+        &self,
+        index: usize,
+        distances: &mut Option<Distances<T>>,
+        drafts: &mut Drafts<T>,
+    ) -> Result<(), Error> {
+        let (track, Segment { levels, model, is_return }) = (&self.tracks[index], &self.segments[index]);
+        let distances = distances.get_or_insert_with(|| Distances::new(self.lattice, self.start));
+        for column in track.rest() {
+            for (cell, square) in track.cells(column) {
+                // At the distance of the centre (`scan.md`, "What a beam says of a cell").
+                let p = levels.at(square).unwrap_or_else(|| model.occupancy(distances.of_centre(cell)));
+                if !cell::in_unit_interval(p) {
+                    let what = "occupancy by the model of beam";
+                    return Err(Error::Item { what, index, value: p.widen(), allowed: "0 to 1" });
+                }
+                // A beam without return says where it is free, and nothing else.
+                if p != T::HALF && (*is_return || p < T::HALF) {
+                    drafts.say(cell, self.limit.canonical(p));
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Finds what each beam shares with its neighbours on a canvas.
-    fn shared(&self, tracks: &[Track], canvas: &Canvas) -> Result<Vec<Shared>, TryReserveError> {
+    fn shared(&self, canvas: &Canvas) -> Result<Vec<Shared>, TryReserveError> {
         let mut shared = Vec::new();
-        shared.try_reserve_exact(tracks.len())?;
+        shared.try_reserve_exact(self.tracks.len())?;
         if canvas.is_shared() {
-            shared.extend(shares(tracks, self.is_clockwise));
+            shared.extend(shares(&self.tracks, self.is_clockwise));
         }
-        shared.resize(tracks.len(), [0; 2]);
+        shared.resize(self.tracks.len(), [0; 2]);
         Ok(shared)
     }
 
     /// Counts the columns that beams share with both of their neighbours, in which they mark nothing.
     #[cfg(test)]
     pub(super) fn shared_columns(&self) -> u64 {
-        let free = self.free();
         let canvas = Canvas::new(self.area, u64::MAX).expect("a small map");
-        let shared = self.tracks(free).and_then(|tracks| self.shared(&tracks, &canvas)).expect("few beams");
-        shared.iter().map(|[both, _]| both).sum()
-    }
-
-    /// Returns what a beam says of a cell that it crosses: what its model says at the distance of the centre. Where the model is
-    /// level, nobody needs the distance (`scan.md`, "What a beam says of a cell").
-    #[inline]
-    fn occupancy(&self, segment: &Segment<M>, cell: [i64; 2], distances: &mut Distances<T>) -> T {
-        let square = Lattice::square_to_centre(self.start, cell);
-        let [near, far] = segment.obstacle;
-        if square <= u128::from(segment.plateau) * u128::from(segment.plateau) {
-            segment.nearest
-        } else if near <= square && square <= far {
-            segment.wall
-        } else if square > segment.reach {
-            T::HALF
-        } else {
-            segment.model.occupancy(distances.of_centre(cell))
-        }
+        self.shared(&canvas).expect("few beams").iter().map(|[both, _]| both).sum()
     }
 }
+
+impl<T: Real, M: InverseSensorModel<Float = T>> Segment<M> {
+    /// Says what the beam says of the cells that are not marked, if these are few and all of the two levels of the drafts, or beyond;
+    /// returns whether they are. No branch depends on where the wall is.
+    #[inline]
+    fn say_levels(&self, track: &Track, drafts: &mut Drafts<T>) -> bool {
+        let Self { levels, is_return, .. } = self;
+        if !*is_return || !drafts.are([levels.nearest, levels.wall]) {
+            return false;
+        }
+        let (mut places, mut squares) = ([0; 2 * COLUMNS], [0.0; 2 * COLUMNS]);
+        if !track.few(&drafts.canvas.codes, &mut places, &mut squares) {
+            return false;
+        }
+        let (mut are_free, mut are_wall, mut are_known) = ([false; 2 * COLUMNS], [false; 2 * COLUMNS], true);
+        for (k, &square) in squares.iter().enumerate() {
+            are_free[k] = levels.is_near(square);
+            are_wall[k] = levels.is_wall(square) && !are_free[k];
+            are_known &= are_free[k] | are_wall[k] | levels.is_beyond(square);
+        }
+        if are_known {
+            drafts.say_levels(&places, &are_free, &are_wall);
+        }
+        are_known
+    }
+}
+
+/// So many columns are looked at together: all that end a beam whose wall is a cell thick.
+const COLUMNS: usize = 3;
 
 /// Finds the place of the sensor.
 fn start<T: Real>(lattice: Lattice, scan: &Scan<T>) -> Result<Point, Error> {

@@ -26,6 +26,8 @@ pub(super) struct Readings {
     pub(super) codes: Raster<u8>,
     /// The log-odds of [`FREE`] and [`OCCUPIED`], 0 where no cell has them.
     pub(super) levels: [i128; 2],
+    /// The places among the codes of the cells that are [`OCCUPIED`], each once.
+    pub(super) occupied: Vec<usize>,
     pub(super) others: Vec<Reading>,
 }
 
@@ -112,8 +114,9 @@ pub(super) struct Drafts<T> {
     pub(super) canvas: Canvas,
     /// The occupancies of [`FREE`] and [`OCCUPIED`]; NaN, which is equal to none, before there is one.
     levels: [T; 2],
-    /// The places of occupied cells, which are drawn when all free ones are.
+    /// The places of occupied cells, which are drawn when all free ones are: so many of these.
     occupied: Vec<usize>,
+    count: usize,
     others: Vec<Other<T>>,
 }
 
@@ -131,7 +134,14 @@ impl<T: Real> Drafts<T> {
     /// [`Error::TooManyCells`] if there are more cells than the limit, or no memory for them.
     pub(super) fn new(area: Area, free: T, max_cells: u64) -> Result<Self, Error> {
         let canvas = Canvas::new(area, max_cells)?;
-        Ok(Self { area, canvas, levels: [free, T::nan()], occupied: Vec::new(), others: Vec::new() })
+        Ok(Self {
+            area,
+            canvas,
+            levels: [free, T::nan()],
+            occupied: Vec::new(),
+            count: 0,
+            others: Vec::new(),
+        })
     }
 
     /// Adds what a beam says of a cell: an occupancy that is not 1/2.
@@ -145,19 +155,45 @@ impl<T: Real> Drafts<T> {
         if p != *level {
             self.others.push(Other { index, p });
         } else if p > T::HALF {
+            self.occupied.truncate(self.count);
             self.occupied.push(index);
+            self.count += 1;
         } else {
             self.canvas.codes.set(index, FREE);
+        }
+    }
+
+    /// Tells whether these are the levels of free and of occupied cells.
+    #[inline]
+    pub(super) fn are(&self, levels: [T; 2]) -> bool {
+        self.levels == levels
+    }
+
+    /// Adds what a beam says of the cells at some places: the one level, the other, or nothing.
+    #[inline]
+    pub(super) fn say_levels(&mut self, places: &[usize], are_free: &[bool], are_occupied: &[bool]) {
+        if self.occupied.len() < self.count + places.len() {
+            self.occupied.resize(2 * self.count + places.len(), 0);
+        }
+        for ((&index, &is_free), &is_occupied) in places.iter().zip(are_free).zip(are_occupied) {
+            self.canvas.codes.add_bits(index, u8::from(is_free) * FREE);
+            self.occupied[self.count] = index;
+            self.count += usize::from(is_occupied);
         }
     }
 
     /// Chooses the strongest reading of each cell, and limits its log-odds.
     pub(super) fn readings(mut self, limit: &Limit<T>) -> Readings {
         let mut codes = self.canvas.settled();
-        // Of an occupied and a free one the occupied.
-        for &index in &self.occupied {
+        // Of an occupied and a free one the occupied; each cell once, which no branch foresees.
+        let mut kept = 0;
+        for k in 0..self.count {
+            let index = self.occupied[k];
+            self.occupied[kept] = index;
+            kept += usize::from(codes.at(index) != OCCUPIED);
             codes.set(index, OCCUPIED);
         }
+        self.occupied.truncate(kept);
         self.others.sort_unstable_by_key(|other| other.index);
         // Neighbours often have the same.
         let mut last = (T::HALF, 0);
@@ -178,8 +214,11 @@ impl<T: Real> Drafts<T> {
                 others.push(Reading { cell: codes.cell_at(index), log_odds: last.1 });
             }
         }
+        if !others.is_empty() {
+            self.occupied.retain(|&index| codes.at(index) == OCCUPIED);
+        }
         let levels = self.levels.map(|p| if p.is_nan() { 0 } else { limit.reading(p) });
-        Readings { area: self.area, codes, levels, others }
+        Readings { area: self.area, codes, levels, occupied: self.occupied, others }
     }
 }
 

@@ -24,8 +24,8 @@ use core::marker::PhantomData;
 /// rectangle of cells.
 ///
 /// Memory:
-/// * 4 bytes for each cell of the rectangle that was seen, while all readings together have at most two values, one of free
-///   cells and one of occupied, as those of a [`SteppedSensor`](crate::sensor::SteppedSensor) have; 8 from 65 536 scans on;
+/// * 5 bytes for each cell of the rectangle that was seen, while all readings together have at most two values, one of free
+///   cells and one of occupied, as those of a [`SteppedSensor`](crate::sensor::SteppedSensor) have; 9 from 65 536 scans on;
 ///   with more values 16, [with agreement](Self::with_agreement) 32;
 /// * room to spare, half as much again on each side that grew, and while the map grows the old and the new one;
 /// * while a scan is inserted or removed, up to two and a half bytes for each cell of the rectangle of that scan, some 500 for each

@@ -20,10 +20,10 @@ pub(super) struct Sums {
 /// The sums of cells, as small as they can be stored.
 #[derive(Clone, Debug)]
 enum Cells {
-    /// While readings are of two levels at most, one for free and one for occupied: 4 bytes a cell, which have the magnitudes, too.
-    Counted(Counts<u32>),
-    /// After more than `2^16 - 1` scans: 8 bytes a cell.
-    CountedFar(Counts<u64>),
+    /// While readings are of two levels at most, one for free and one for occupied: 5 bytes a cell, which have the magnitudes, too.
+    Counted(Counts<u16>),
+    /// After more than `2^16 - 1` scans: 9 bytes a cell.
+    CountedFar(Counts<u32>),
     /// 16 bytes a cell, and 16 for magnitudes.
     Summed(Totals),
 }
@@ -177,7 +177,7 @@ impl Sums {
     }
 
     /// Returns what there is of the three.
-    fn either(&self) -> (Option<&Counts<u32>>, Option<&Counts<u64>>, Option<&Totals>) {
+    fn either(&self) -> (Option<&Counts<u16>>, Option<&Counts<u32>>, Option<&Totals>) {
         match &self.cells {
             Cells::Counted(counts) => (Some(counts), None, None),
             Cells::CountedFar(counts) => (None, Some(counts), None),

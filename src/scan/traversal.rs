@@ -1,6 +1,7 @@
-//! The cells that a segment crosses: the grid traversal of Amanatides and Woo (1987), decided in integers.
+//! The cells that a segment crosses, one by one: the grid traversal of Amanatides and Woo (1987), decided in integers. What tests
+//! compare with.
 
-use super::lattice::{FRACTION, Point};
+use super::lattice::{FRACTION, Point, cell_of};
 
 /// The cells from the one that holds `from` to the one that holds `to`, in the order in which the segment meets them.
 ///
@@ -18,86 +19,38 @@ pub(super) struct Traversal {
     is_steep: bool,
     /// The number of lines of the grid yet to be crossed, per axis.
     left: [u64; 2],
-    /// As those of [`Steps`].
+    /// How far from a line of the other axis it is where it crosses the next line of the longer one, how much further at each line
+    /// after that, and how far from line to line: in units of `2^-28` of a cell over the longer side.
     next: u128,
     step: u128,
     side: u128,
     done: bool,
 }
 
-/// Finds the cell that holds a point.
-#[inline]
-pub(super) fn cell_of(point: Point) -> [i64; 2] {
-    [point[0] >> FRACTION, point[1] >> FRACTION]
-}
-
-/// A segment on the grid, by axis: where it begins, how far it goes, and the lines that it crosses.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Steps {
-    /// The cell that holds its start.
-    pub(super) cell: [i64; 2],
-    /// The number of lines of the grid that it crosses.
-    pub(super) lines: [u64; 2],
-    /// How far it goes: below `2^62`.
-    pub(super) sides: [u64; 2],
-    pub(super) forward: [bool; 2],
-    /// The longer axis, and how far it is to the first line of it.
-    pub(super) long: usize,
-    pub(super) to_line: u64,
-    /// How far from a line of the other axis it is where it crosses the first line of the longer one, how much further at each next
-    /// one, and how far from line to line: in units of `2^-28` of a cell over the longer side.
-    pub(super) next: u128,
-    pub(super) step: u128,
-    pub(super) side: u128,
-}
-
-impl Steps {
-    /// Measures the segment between two points.
-    #[inline]
+impl Traversal {
+    /// Begins in the cell that holds `from`.
     pub(super) fn new(from: Point, to: Point) -> Self {
         let (cell, last) = (cell_of(from), cell_of(to));
         let forward = [to[0] >= from[0], to[1] >= from[1]];
         let line = |k: usize| ((cell[k] + i64::from(forward[k])) << FRACTION).abs_diff(from[k]);
-        let lines = [cell[0].abs_diff(last[0]), cell[1].abs_diff(last[1])];
-        let sides = [to[0].abs_diff(from[0]), to[1].abs_diff(from[1])];
-        let long = usize::from(sides[0] < sides[1]);
-        let (to_line, beside) = (line(long), line(1 - long));
-        let [long_side, wide_side] = [sides[long], sides[1 - long]].map(u128::from);
-        let side = long_side << FRACTION;
-        // From the line behind, if there were one.
-        let next = side - u128::from(beside) * long_side + u128::from(to_line) * wide_side;
-        Self { cell, lines, sides, forward, long, to_line, next, step: wide_side << FRACTION, side }
-    }
-
-    /// Begins the traversal in the cell after so many lines of the longer axis and of the other, the first ones in some order, where
-    /// it crosses the next line of the longer at `next`.
-    #[inline]
-    pub(super) fn beyond(self, [columns, rows]: [u64; 2], next: u128) -> Traversal {
-        let crossed = if self.long == 0 { [columns, rows] } else { [rows, columns] };
-        let left = [self.lines[0] - crossed[0], self.lines[1] - crossed[1]];
-        let Self { forward, long, step, side, .. } = self;
-        let cell = self.cell_after(crossed);
-        Traversal { cell, forward, is_steep: long == 1, left, next, step, side, done: false }
-    }
-
-    /// Returns the cell after so many lines of either axis.
-    #[inline]
-    fn cell_after(&self, crossed: [u64; 2]) -> [i64; 2] {
-        let moved = |k: usize| if self.forward[k] { crossed[k] as i64 } else { -(crossed[k] as i64) };
-        [self.cell[0] + moved(0), self.cell[1] + moved(1)]
-    }
-}
-
-impl Traversal {
-    /// Begins in the cell that holds `from`.
-    #[cfg(test)]
-    pub(super) fn new(from: Point, to: Point) -> Self {
-        let steps = Steps::new(from, to);
-        steps.beyond([0; 2], steps.next)
+        let sides = [to[0].abs_diff(from[0]), to[1].abs_diff(from[1])].map(u128::from);
+        let is_steep = sides[0] < sides[1];
+        let (long, wide) = if is_steep { (1, 0) } else { (0, 1) };
+        let side = sides[long] << FRACTION;
+        Self {
+            cell,
+            forward,
+            is_steep,
+            left: [cell[0].abs_diff(last[0]), cell[1].abs_diff(last[1])],
+            // From the line behind, if there were one.
+            next: side - u128::from(line(wide)) * sides[long] + u128::from(line(long)) * sides[wide],
+            step: sides[wide] << FRACTION,
+            side,
+            done: false,
+        }
     }
 
     /// Crosses the next line of an axis.
-    #[inline]
     fn cross(&mut self, axis: usize) {
         self.cell[axis] += if self.forward[axis] { 1 } else { -1 };
         self.left[axis] -= 1;
@@ -107,7 +60,6 @@ impl Traversal {
 impl Iterator for Traversal {
     type Item = [i64; 2];
 
-    #[inline]
     fn next(&mut self) -> Option<[i64; 2]> {
         if self.done {
             return None;

@@ -30,7 +30,7 @@ fn all() -> impl Iterator<Item = &'static Inequality> {
 }
 
 /// The statements that no search at points can try, and why.
-const ELSEWHERE: [(&str, &str, &str); 25] = [
+const ELSEWHERE: [(&str, &str, &str); 26] = [
     ("cell", "Theorem (no ties)", "no inequality"),
     ("evidence", "Theorem (removal)", "an equality, bit for bit: tests/library/scan/removal.rs"),
     (
@@ -70,6 +70,11 @@ const ELSEWHERE: [(&str, &str, &str); 25] = [
     ("scan", "Theorem (sure cells)", "an equality, bit for bit: src/scan/reference.rs, cell by cell"),
     ("scan", "Theorem (columns)", "an equality: src/scan/columns.rs, against the traversal line by line"),
     ("scan", "Theorem (counts)", "an equality, bit for bit: src/scan/reference.rs"),
+    (
+        "scan",
+        "Theorem (levels)",
+        "of integers that are not public: src/scan/lattice.rs, against the distances",
+    ),
     ("sums", "Theorem (exact sums)", "an equality, bit for bit: tests/library/tally.rs"),
     (
         "sums",

@@ -90,7 +90,7 @@ rows() {
 
 # The vector kernels: each row of their tables, then their scripts for each value and binade of distances, or interval of log-odds.
 rows rows.sollya "${ROWS:-}" lanes::tests::rows_for_the_proof 119070
-rows log_odds_rows.sollya "" log_odds::tests::rows_for_the_proof 89782
+rows log_odds_rows.sollya "" log_odds::tests::rows_for_the_proof 179894
 for script in proofs/lanes_*.gappa proofs/log_odds_*.gappa; do
     wanted "$(basename "$script")" || continue
     [ -z "$making" ] || { wait "$making"; making=; }

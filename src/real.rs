@@ -19,11 +19,11 @@ mod sealed {
 
     /// Arguments and the places of their results, in either format.
     #[derive(Debug)]
-    pub enum Pair<'a, const N: usize> {
+    pub enum Pair<'a, const N: usize, const M: usize> {
         /// Floats of 32 bits.
-        Single(&'a [f32; N], &'a mut [f32; N]),
+        Single(&'a [f32; N], &'a mut [f32; M]),
         /// Floats of 64 bits.
-        Double(&'a [f64; N], &'a mut [f64; N]),
+        Double(&'a [f64; N], &'a mut [f64; M]),
     }
 
     /// The seal: only this crate implements it.
@@ -32,7 +32,10 @@ mod sealed {
         fn floats<const N: usize>(floats: &[Self; N]) -> Floats<'_, N>;
 
         /// Returns the same arguments and places, with their format as a value.
-        fn pair<'a, const N: usize>(arguments: &'a [Self; N], results: &'a mut [Self; N]) -> Pair<'a, N>;
+        fn pair<'a, const N: usize, const M: usize>(
+            arguments: &'a [Self; N],
+            results: &'a mut [Self; M],
+        ) -> Pair<'a, N, M>;
     }
 
     impl Sealed for f32 {
@@ -40,7 +43,10 @@ mod sealed {
             Floats::Single(floats)
         }
 
-        fn pair<'a, const N: usize>(arguments: &'a [Self; N], results: &'a mut [Self; N]) -> Pair<'a, N> {
+        fn pair<'a, const N: usize, const M: usize>(
+            arguments: &'a [Self; N],
+            results: &'a mut [Self; M],
+        ) -> Pair<'a, N, M> {
             Pair::Single(arguments, results)
         }
     }
@@ -50,7 +56,10 @@ mod sealed {
             Floats::Double(floats)
         }
 
-        fn pair<'a, const N: usize>(arguments: &'a [Self; N], results: &'a mut [Self; N]) -> Pair<'a, N> {
+        fn pair<'a, const N: usize, const M: usize>(
+            arguments: &'a [Self; N],
+            results: &'a mut [Self; M],
+        ) -> Pair<'a, N, M> {
             Pair::Double(arguments, results)
         }
     }

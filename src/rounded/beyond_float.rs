@@ -12,7 +12,7 @@ use super::log_odds;
 use super::round::FixedEnclosure;
 
 /// A number in fixed point: `value 2^exponent`.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Fixed {
     pub(crate) value: u128,
     pub(crate) exponent: i32,

@@ -81,6 +81,14 @@ impl ExactSum {
         self.add_at(place + 64, (n >> 64) * u128::from(count));
     }
 
+    /// Adds the parts of a block's sum, exactly: multiples of the smallest number of `T`.
+    #[cfg(feature = "std")]
+    pub(crate) fn add_parts<T: Real>(&mut self, parts: [Fixed; 3]) {
+        for part in parts.into_iter().filter(|part| part.value > 0) {
+            self.add_fixed::<T>(part, 1);
+        }
+    }
+
     /// Adds `n` units of `2^(LOWEST + place)`.
     #[inline]
     fn add_at(&mut self, place: usize, n: u128) {

@@ -117,7 +117,7 @@ impl<T: Real> InformationSum<T> {
     /// free.
     #[cfg(feature = "std")]
     fn add_block(&mut self, block: &lanes::Block) {
-        self.sum.add_fixed::<T>(block.information, 1);
+        self.sum.add_parts::<T>(block.information);
         self.unknown += block.unknown;
         self.observed += block.free;
     }

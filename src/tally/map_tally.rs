@@ -116,7 +116,7 @@ impl<T: Real> Tally<T> {
     ///
     /// Equal, bit for bit, to the tally of the single cells (Eqs. 2 to 4; proved, [`sums`](crate::book::sums), "Blocks of
     /// log-odds"), and many times as fast (feature `std`), as [`Tally::from_occupancies`] is. The first call makes a table
-    /// of 229 KB (`f64`; `f32` has none).
+    /// of 476 KB (`f64`; `f32` has none).
     ///
     /// ```
     /// use mean_information::{Tally, cell::Cell};
@@ -140,8 +140,8 @@ impl<T: Real> Tally<T> {
     /// Adds the sums and counts of a block of cells.
     #[cfg(feature = "std")]
     fn add_block(&mut self, block: &lanes::Block) {
-        self.entropy.add_fixed::<T>(block.entropy, 1);
-        self.information.add_fixed::<T>(block.information, 1);
+        self.entropy.add_parts::<T>(block.entropy);
+        self.information.add_parts::<T>(block.information);
         self.unknown += block.unknown;
         self.occupied += block.occupied;
         self.free += block.free;

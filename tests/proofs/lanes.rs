@@ -11,13 +11,14 @@ use std::collections::BTreeMap;
 use std::fs;
 
 const KERNEL: &str = "kernel";
+const SUM: &str = "sum";
 const DOUBLE: &str = "log_odds/double";
 const SINGLE: &str = "log_odds/single";
 
 /// The functions that a script quotes, each with its file.
 fn quoted_by(script: &str) -> &'static [(&'static str, &'static str)] {
     if script.starts_with("sum_") {
-        &[(KERNEL, "high_origin"), (KERNEL, "low_origin"), (KERNEL, "add")]
+        &[(SUM, "high_origin"), (SUM, "low_origin"), (SUM, "add")]
     } else if script.starts_with("log_odds_f64") {
         &[(DOUBLE, "value"), (DOUBLE, "bounds"), (KERNEL, "complements")]
     } else if script.starts_with("log_odds_f32") {

@@ -2,8 +2,8 @@
 //!
 //! Value and rounding test are those of the sums, theorem (blocks) in the chapter [`sums`](crate::book::sums).
 
-use super::format::Lane;
-use super::kernel::{BLOCK, bounds, complements, distance, value};
+use super::format::{BLOCK, Lane};
+use super::kernel::{bounds, complements, distance, value};
 use super::table::Table;
 
 /// Stores the entropies of the cells, or their information: the nearest floats, NaN where a cell is no probability, and

@@ -1,7 +1,10 @@
 //! The formats of the kernel's lanes: what differs between `f32` and `f64`, and the operations on their bits.
 
 use crate::real::Real;
+use core::ops::BitOr;
 
+/// Counts the cells that are summed up at once: so few that no sum of bits overflows.
+pub(crate) const BLOCK: usize = 256;
 /// The significand bits by which a distance finds its centre: each binade has `2^CELL_BITS` centres.
 pub(super) const CELL_BITS: u32 = 7;
 /// The centres of one half of the table, a power of two so that an index is a mask.
@@ -10,13 +13,16 @@ pub(super) const HALF: usize = 4096;
 /// Names a format of floats and the integer of its bits: one lane of a vector.
 pub(crate) trait Lane: Real {
     /// Holds the bits of a float.
-    type Word: Copy + Default + core::fmt::Debug + Send + Sync + 'static;
+    type Word: Copy
+        + Default
+        + PartialEq
+        + BitOr<Output = Self::Word>
+        + core::fmt::Debug
+        + Send
+        + Sync
+        + 'static;
     /// Bounds the table: distances below `2^-BINADES` have no centre.
     const BINADES: i32;
-    /// Bounds the sums: information at distances from unknown below `2^-NEAREST` has bits below theirs.
-    const NEAREST: i32;
-    /// Bounds the sums: entropies at distances from certain below `2^-SUREST` have bits below theirs.
-    const SUREST: i32;
     /// Counts the coefficients of the polynomial.
     const TERMS: usize;
     /// Bounds the error before rounding, relative to the value that is summed up: theorem (blocks), *Error*.
@@ -44,6 +50,9 @@ pub(crate) trait Lane: Real {
     /// Computes `a b + c`, rounded once.
     fn fused(a: Self, b: Self, c: Self) -> Self;
 
+    /// Returns the bits of a float.
+    fn bits(self) -> Self::Word;
+
     /// Adds the bits of a float to a sum of bits.
     fn add_bits(sum: Self::Word, x: Self) -> Self::Word;
 
@@ -52,12 +61,10 @@ pub(crate) trait Lane: Real {
 }
 
 macro_rules! impl_lane {
-    ($float:ident, $word:ident, $signed:ident, $binades:literal, $nearest:literal, $surest:literal, $terms:literal, $slope:literal, $error:literal) => {
+    ($float:ident, $word:ident, $signed:ident, $binades:literal, $terms:literal, $slope:literal, $error:literal) => {
         impl Lane for $float {
             type Word = $word;
             const BINADES: i32 = $binades;
-            const NEAREST: i32 = $nearest;
-            const SUREST: i32 = $surest;
             const TERMS: usize = $terms;
             const ERROR: Self = $error;
             const OPEN: Self = -1.0;
@@ -112,6 +119,11 @@ macro_rules! impl_lane {
             }
 
             #[inline(always)]
+            fn bits(self) -> $word {
+                self.to_bits()
+            }
+
+            #[inline(always)]
             fn add_bits(sum: $word, x: Self) -> $word {
                 // Sums: within one binade bits are multiples of the ulp, and wrapping loses nothing.
                 sum.wrapping_add(x.to_bits())
@@ -124,5 +136,5 @@ macro_rules! impl_lane {
     };
 }
 
-impl_lane!(f32, u32, i32, 32, 10, 24, 3, 12, 7.4e-11); // 2^-33.65
-impl_lane!(f64, u64, i64, 32, 24, 32, 6, 24, 6e-20); // 2^-63.85
+impl_lane!(f32, u32, i32, 32, 3, 12, 7.4e-11); // 2^-33.65
+impl_lane!(f64, u64, i64, 32, 6, 24, 6e-20); // 2^-63.85

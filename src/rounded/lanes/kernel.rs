@@ -1,96 +1,64 @@
-//! The kernel: entropy and information of a block of cells, and their exact sums.
+//! The kernel: entropy and information of a block of cells, stored and then summed up, exactly.
 //!
 //! `V(c + h) = V(c) + h V'(c) + h y E(b, y)` about the centre `c` of a cell of the table, and a rounding test. The bounds
 //! are those of theorem (blocks) in the chapter [`sums`](crate::book::sums), whose paragraphs the comments name.
 
-use super::format::Lane;
+use super::format::{BLOCK, Lane};
+use super::sum::{self, Parts};
 use super::table::{self, Rows, Table};
-use crate::rounded::beyond_float::Fixed;
 
-/// Counts the cells that are summed up at once: so few that no sum of bits overflows.
-pub(crate) const BLOCK: usize = 256;
+/// Holds the entropies of a block, then its information.
+pub(crate) type Results<T> = [T; 2 * BLOCK];
 
-/// Marks what became of a cell.
+/// Splits the results of a block into entropies and information.
+#[inline(always)]
+pub(super) fn halves<T>(results: &mut Results<T>) -> (&mut [T; BLOCK], &mut [T; BLOCK]) {
+    let (entropies, informations) = results.split_first_chunk_mut().expect("two blocks have one");
+    (entropies, informations.first_chunk_mut().expect("and another"))
+}
+
+/// Marks what became of a cell: each mark but [`OPEN`](mark::OPEN) is a bit of its own, so that bits are counted.
 pub(super) mod mark {
     /// Marks a cell that is in no sum yet: not decided, or beyond the table.
     pub(in super::super) const OPEN: u8 = 0;
     /// Marks a cell in the sums, below 1/2; without entropies, or above.
     pub(in super::super) const FREE: u8 = 1;
     pub(in super::super) const OCCUPIED: u8 = 2;
-    pub(in super::super) const UNKNOWN: u8 = 3;
+    pub(in super::super) const UNKNOWN: u8 = 4;
     /// Marks what is no cell.
-    pub(in super::super) const NONE: u8 = 4;
+    pub(in super::super) const NONE: u8 = 8;
 }
-
-/// The sum of the entropies in a kernel without them.
-pub(super) const NO_SUM: Fixed = Fixed { value: 0, exponent: 0 };
 
 /// Holds what a block of cells adds to a tally, except for those that are left open.
 #[derive(Debug)]
 pub(crate) struct Block {
     /// Holds the exact sum of the rounded entropies, or 0 without them.
-    pub(crate) entropy: Fixed,
+    pub(crate) entropy: Parts,
     /// Holds the exact sum of the rounded information.
-    pub(crate) information: Fixed,
+    pub(crate) information: Parts,
     pub(crate) unknown: u64,
     pub(crate) free: u64,
     /// Counts the occupied cells; 0 without entropies, where they are among the free ones.
     pub(crate) occupied: u64,
     pub(super) marks: [u8; BLOCK],
+    /// Whether there are small entropies, and information, that are in no sum yet.
+    pub(super) has_small: [bool; 2],
 }
 
-/// Sums numbers in `[0, 1]` in integers: units of `2^(2 - PRECISION)`, and what is left, in as many bits below.
-#[derive(Clone, Copy)]
-pub(super) struct Sum<T: Lane> {
-    high: T::Word,
-    low: T::Word,
-}
-
-impl<T: Lane> Sum<T> {
-    /// Returns 3, whose ulp is `2^(2 - PRECISION)`, as it is up to 4.
-    #[inline(always)]
-    fn high_origin() -> T {
-        T::one() + T::one() + T::one()
-    }
-
-    /// Returns 3/2 ulps of [`Sum::high_origin`]: its own ulp is as far below as that is below 1.
-    #[inline(always)]
-    fn low_origin() -> T {
-        (Self::high_origin() + Self::high_origin()) * T::epsilon()
-    }
-
-    /// Creates an empty sum.
-    pub(super) fn new() -> Self {
-        Self { high: T::Word::default(), low: T::Word::default() }
-    }
-
-    /// Adds a number in `[0, 1]`, exactly.
-    #[inline(always)]
-    pub(super) fn add(&mut self, x: T) {
-        // Sums: to a multiple of `2^(2 - PRECISION)`, the ulp of 3, which the bits then count.
-        let high = x + Self::high_origin();
-        // Sums: what `high` has lost, from the low origin on: every step is exact.
-        let low = x - (high - (Self::high_origin() + Self::low_origin()));
-        self.high = T::add_bits(self.high, high);
-        self.low = T::add_bits(self.low, low);
-    }
-
-    /// Returns the sum as an integer times a power of two.
-    pub(super) fn fixed(self) -> Fixed {
-        let high = i128::from(T::ulps(self.high, Self::high_origin(), BLOCK));
-        let low = i128::from(T::ulps(self.low, Self::low_origin(), BLOCK));
-        // Each of the two parts has units `2^-places` of the one above it.
-        let places = T::PRECISION as i32 - 2;
-        Fixed { value: ((high << places) + low) as u128, exponent: -2 * places }
-    }
+/// Counts the marks of one kind, eight bytes at a time.
+#[inline(always)]
+fn count(marks: &[u8; BLOCK], of: u8) -> u64 {
+    let these = u64::from_ne_bytes([of; 8]);
+    let eights = marks.as_chunks::<8>().0.iter();
+    eights.map(|&marks| u64::from((u64::from_ne_bytes(marks) & these).count_ones())).sum()
 }
 
 impl Block {
     /// Returns the cells of the block that are in no sum.
     pub(crate) fn open<T: Copy>(&self, cells: &[T]) -> impl Iterator<Item = T> {
-        // Eight at a time, since there are few.
+        // Eight at a time, since there are few: of eight marks, one bit each, some are open if there are fewer bits.
         let eights = self.marks.as_chunks::<8>().0.iter().zip(cells.chunks(8));
-        let some_open = |marks: &[u8; 8]| marks.contains(&mark::OPEN);
+        let some_open = |marks: &[u8; 8]| u64::from_ne_bytes(*marks).count_ones() < 8;
         eights.filter(move |(marks, _)| some_open(marks)).flat_map(|(marks, cells)| {
             marks.iter().zip(cells).filter(|(mark, _)| **mark == mark::OPEN).map(|(_, &p)| p)
         })
@@ -99,22 +67,22 @@ impl Block {
     /// Computes the sums over the cells of the given occupancies, with their entropies or without.
     ///
     /// With `FUSED`, some products and sums are rounded at once, which only pays where the target has an
-    /// instruction for it. One loop without branches over arrays of fixed size: that is what compilers make vectors
+    /// instruction for it. Loops without branches over arrays of fixed size: that is what compilers make vectors
     /// of.
     #[inline(always)]
     pub(crate) fn of<T: Lane, const FUSED: bool, const ENTROPY: bool>(
         table: &Table<T>,
         cells: &[T; BLOCK],
+        results: &mut Results<T>,
     ) -> Self {
         let rows = table.rows::<ENTROPY>();
         let (zero, one) = (T::zero(), T::one());
-        let surest = if ENTROPY { T::SUREST } else { T::BINADES };
-        let [nearest, least] = [T::NEAREST, surest].map(|binades| T::from_parts(1, -binades));
+        let least = T::from_parts(1, -T::BINADES);
         let mut marks = [mark::OPEN; BLOCK];
-        let (mut entropy, mut information) = (Sum::new(), Sum::new());
-        for (&p, mark) in cells.iter().zip(&mut marks) {
+        let (entropies, informations) = halves(results);
+        let places = entropies.iter_mut().zip(&mut *informations).zip(&mut marks);
+        for (&p, ((entropy, information), mark)) in cells.iter().zip(places) {
             let (x, near) = distance(p);
-            let least = if near { nearest } else { least };
             // Not 0 itself: subnormal numbers are slow.
             let inside = if x > least { x } else { least };
             let (head, tail) = value::<T, FUSED, ENTROPY>(&rows, inside, near);
@@ -135,11 +103,11 @@ impl Block {
                 } else {
                     zero
                 };
-                entropy.add(if near { other } else { value });
-                information.add(if near { value } else { other });
+                *entropy = if near { other } else { value };
+                *information = if near { value } else { other };
             } else {
                 let value = if done { value } else { zero };
-                information.add(if edge & !near { one } else { value });
+                *information = if edge & !near { one } else { value };
             }
             done |= edge;
             let observed = if ENTROPY & (p > T::HALF) { mark::OCCUPIED } else { mark::FREE };
@@ -148,20 +116,38 @@ impl Block {
             let left = if x >= zero { mark::OPEN } else { mark::NONE };
             *mark = if done { seen } else { left };
         }
-        Self::new(if ENTROPY { entropy.fixed() } else { NO_SUM }, information.fixed(), marks)
+        Self::new::<T, ENTROPY>(entropies, informations, marks)
     }
 
-    /// Creates a block from its sums and what became of its cells.
+    /// Creates a block from the results of its cells, 0 where they are left open, and what became of each.
     #[inline(always)]
-    pub(super) fn new(entropy: Fixed, information: Fixed, marks: [u8; BLOCK]) -> Self {
-        let count = |of: u8| marks.iter().map(|&mark| u32::from(mark == of)).sum::<u32>().into();
+    pub(super) fn new<T: Lane, const ENTROPY: bool>(
+        entropies: &[T; BLOCK],
+        informations: &[T; BLOCK],
+        marks: [u8; BLOCK],
+    ) -> Self {
+        let (entropy, small_entropies) =
+            if ENTROPY { sum::large(entropies) } else { (Parts::default(), false) };
+        let (information, small_information) = sum::large(informations);
         Self {
             entropy,
             information,
-            unknown: count(mark::UNKNOWN),
-            free: count(mark::FREE),
-            occupied: count(mark::OCCUPIED),
+            unknown: count(&marks, mark::UNKNOWN),
+            free: count(&marks, mark::FREE),
+            occupied: count(&marks, mark::OCCUPIED),
             marks,
+            has_small: [small_entropies, small_information],
+        }
+    }
+
+    /// Adds to the sums what small results of the block are not in them.
+    #[inline(always)]
+    pub(super) fn add_small<T: Lane>(&mut self, results: &Results<T>) {
+        let sums = [&mut self.entropy, &mut self.information];
+        for ((parts, results), _) in
+            sums.into_iter().zip(results.as_chunks().0).zip(self.has_small).filter(|(_, small)| *small)
+        {
+            sum::add_small(parts, results);
         }
     }
 }

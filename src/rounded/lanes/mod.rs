@@ -4,7 +4,7 @@
 //! instructions: about each of some thousand centres, value and slope are known to twice the precision ([`table`]), the
 //! rest is a short polynomial ([`kernel`]), and a rounding test shows whether the sum of them all has one nearest
 //! float. The few cells that fail it are left to [`CellEnclosures`](super::CellEnclosures). So every vector unit gives
-//! the same bits: the right ones. The results are summed up, or stored one by one ([`elementwise`]); [`log_odds`] has
+//! the same bits: the right ones. The results are summed up ([`sum`]), or stored one by one ([`elementwise`]); [`log_odds`] has
 //! the same for log-odds. The proofs are in the chapter [`sums`](crate::book::sums).
 
 // A call or a branch in the loop and it is no longer made into vector instructions.
@@ -14,9 +14,11 @@ mod elementwise;
 mod format;
 mod kernel;
 mod log_odds;
+mod sum;
 mod table;
 
-pub(crate) use kernel::{BLOCK, Block};
+pub(crate) use format::BLOCK;
+pub(crate) use kernel::{Block, Results};
 
 use crate::real::{Floats, Pair, Real};
 use multiversion::multiversion;
@@ -25,19 +27,21 @@ use std::sync::LazyLock;
 use table::Table;
 
 /// Sums entropy and information over a block of occupancies, by the widest vector unit at hand.
-pub(crate) fn sums<T: Real>(cells: &[T; BLOCK]) -> Block {
-    match T::floats(cells) {
-        Floats::Single(cells) => single::sums(cells),
-        Floats::Double(cells) => double::sums(cells),
-    }
+pub(crate) fn sums<T: Real>(cells: &[T; BLOCK], results: &mut Results<T>) -> Block {
+    let block = match T::pair(cells, results) {
+        Pair::Single(cells, results) => single::sums(cells, results),
+        Pair::Double(cells, results) => double::sums(cells, results),
+    };
+    with_small(block, results)
 }
 
 /// Sums the information over a block of occupancies, without entropies.
-pub(crate) fn information<T: Real>(cells: &[T; BLOCK]) -> Block {
-    match T::floats(cells) {
-        Floats::Single(cells) => single::information(cells),
-        Floats::Double(cells) => double::information(cells),
-    }
+pub(crate) fn information<T: Real>(cells: &[T; BLOCK], results: &mut Results<T>) -> Block {
+    let block = match T::pair(cells, results) {
+        Pair::Single(cells, results) => single::information(cells, results),
+        Pair::Double(cells, results) => double::information(cells, results),
+    };
+    with_small(block, results)
 }
 
 /// Stores the entropy of each occupancy of a block: the nearest float, NaN outside `[0, 1]`, a negative number where it is
@@ -58,19 +62,21 @@ pub(crate) fn informations<T: Real>(cells: &[T; BLOCK], results: &mut [T; BLOCK]
 }
 
 /// Sums entropy and information over a block of log-odds.
-pub(crate) fn sums_from_log_odds<T: Real>(cells: &[T; BLOCK]) -> Block {
-    match T::floats(cells) {
-        Floats::Single(cells) => single_log_odds::sums(cells),
-        Floats::Double(cells) => double_log_odds::sums(cells),
-    }
+pub(crate) fn sums_from_log_odds<T: Real>(cells: &[T; BLOCK], results: &mut Results<T>) -> Block {
+    let block = match T::pair(cells, results) {
+        Pair::Single(cells, results) => single_log_odds::sums(cells, results),
+        Pair::Double(cells, results) => double_log_odds::sums(cells, results),
+    };
+    with_small(block, results)
 }
 
 /// Sums the information over a block of log-odds, without entropies.
-pub(crate) fn information_from_log_odds<T: Real>(cells: &[T; BLOCK]) -> Block {
-    match T::floats(cells) {
-        Floats::Single(cells) => single_log_odds::information(cells),
-        Floats::Double(cells) => double_log_odds::information(cells),
-    }
+pub(crate) fn information_from_log_odds<T: Real>(cells: &[T; BLOCK], results: &mut Results<T>) -> Block {
+    let block = match T::pair(cells, results) {
+        Pair::Single(cells, results) => single_log_odds::information(cells, results),
+        Pair::Double(cells, results) => double_log_odds::information(cells, results),
+    };
+    with_small(block, results)
 }
 
 /// Stores the entropy at each of a block's log-odds: the nearest float, NaN at NaN, a negative number where it is not
@@ -98,6 +104,19 @@ pub(crate) fn occupancies_from_log_odds<T: Real>(cells: &[T; BLOCK], results: &m
     }
 }
 
+/// Returns a block with its small results in the sums.
+#[inline]
+fn with_small<T: Real>(mut block: Block, results: &Results<T>) -> Block {
+    if block.has_small != [false; 2] {
+        // Apart from the kernels, since few blocks have any.
+        match T::floats(results) {
+            Floats::Single(results) => add_small_single(&mut block, results),
+            Floats::Double(results) => add_small_double(&mut block, results),
+        }
+    }
+    block
+}
+
 /// Compiles a kernel for several vector units, of which the widest is taken that the processor has: AVX-512 from Ice
 /// Lake and Zen 4 on (`multiversion` asks for their extensions, since older ones run slower with it). `FUSED` is a
 /// constant that the call may use.
@@ -109,15 +128,28 @@ macro_rules! by_target {
         ))]
         $visibility fn $name($($argument: $type),*) $(-> $result)? {
             if target_cfg_f!(any(target_feature = "fma", target_arch = "aarch64")) {
+                #[allow(dead_code, reason = "sums have no fused operations")]
                 const FUSED: bool = true;
                 $call
             } else {
+                #[allow(dead_code, reason = "sums have no fused operations")]
                 const FUSED: bool = false;
                 $call
             }
         }
     };
 }
+
+by_target!(
+    fn add_small_single(block: &mut Block, results: &Results<f32>) {
+        block.add_small(results)
+    }
+);
+by_target!(
+    fn add_small_double(block: &mut Block, results: &Results<f64>) {
+        block.add_small(results)
+    }
+);
 
 /// Defines the kernels of occupancies for a format.
 macro_rules! of_occupancies {
@@ -135,13 +167,13 @@ macro_rules! of_occupancies {
         }
     };
     (sums: $name:ident, $float:ident, $entropy:literal) => {
-        pub(super) fn $name(cells: &[$float; BLOCK]) -> Block {
+        pub(super) fn $name(cells: &[$float; BLOCK], results: &mut Results<$float>) -> Block {
             by_target! {
-                fn kernel(table: &Table<$float>, cells: &[$float; BLOCK]) -> Block {
-                    Block::of::<$float, FUSED, $entropy>(table, cells)
+                fn kernel(table: &Table<$float>, cells: &[$float; BLOCK], results: &mut Results<$float>) -> Block {
+                    Block::of::<$float, FUSED, $entropy>(table, cells, results)
                 }
             }
-            kernel(&TABLE, cells)
+            kernel(&TABLE, cells, results)
         }
     };
     (results: $name:ident, $float:ident, $entropy:literal) => {
@@ -163,16 +195,16 @@ of_occupancies!(double, f64);
 mod single_log_odds {
     use super::log_odds::single::{results, sums as block};
     use super::log_odds::{Entropy, Information, Occupancy};
-    use super::{BLOCK, Block, multiversion, target_cfg_f};
+    use super::{BLOCK, Block, Results, multiversion, target_cfg_f};
 
     by_target!(
-        pub(super) fn sums(cells: &[f32; BLOCK]) -> Block {
-            block::<FUSED, true>(cells)
+        pub(super) fn sums(cells: &[f32; BLOCK], results: &mut Results<f32>) -> Block {
+            block::<FUSED, true>(cells, results)
         }
     );
     by_target!(
-        pub(super) fn information(cells: &[f32; BLOCK]) -> Block {
-            block::<FUSED, false>(cells)
+        pub(super) fn information(cells: &[f32; BLOCK], results: &mut Results<f32>) -> Block {
+            block::<FUSED, false>(cells, results)
         }
     );
     by_target!(
@@ -197,7 +229,7 @@ mod double_log_odds {
     use super::log_odds::double::{results, sums as block};
     use super::log_odds::table::{Table, of_information, of_occupancy};
     use super::log_odds::{Entropy, Information, Occupancy};
-    use super::{BLOCK, Block, LazyLock, multiversion, target_cfg_f};
+    use super::{BLOCK, Block, LazyLock, Results, multiversion, target_cfg_f};
 
     /// Holds the table of information and entropy, made when first needed.
     static TABLE: LazyLock<Table> = LazyLock::new(|| Table::new(of_information));
@@ -205,13 +237,13 @@ mod double_log_odds {
     static OCCUPANCY: LazyLock<Table> = LazyLock::new(|| Table::new(of_occupancy));
 
     by_target!(
-        fn both(table: &Table, cells: &[f64; BLOCK]) -> Block {
-            block::<FUSED, true>(table, cells)
+        fn both(table: &Table, cells: &[f64; BLOCK], results: &mut Results<f64>) -> Block {
+            block::<FUSED, true>(table, cells, results)
         }
     );
     by_target!(
-        fn one(table: &Table, cells: &[f64; BLOCK]) -> Block {
-            block::<FUSED, false>(table, cells)
+        fn one(table: &Table, cells: &[f64; BLOCK], results: &mut Results<f64>) -> Block {
+            block::<FUSED, false>(table, cells, results)
         }
     );
     by_target!(
@@ -230,12 +262,12 @@ mod double_log_odds {
         }
     );
 
-    pub(super) fn sums(cells: &[f64; BLOCK]) -> Block {
-        both(&TABLE, cells)
+    pub(super) fn sums(cells: &[f64; BLOCK], results: &mut Results<f64>) -> Block {
+        both(&TABLE, cells, results)
     }
 
-    pub(super) fn information(cells: &[f64; BLOCK]) -> Block {
-        one(&TABLE, cells)
+    pub(super) fn information(cells: &[f64; BLOCK], results: &mut Results<f64>) -> Block {
+        one(&TABLE, cells, results)
     }
 
     pub(super) fn entropies(cells: &[f64; BLOCK], places: &mut [f64; BLOCK]) {

@@ -5,13 +5,11 @@
 
 use super::table::{FIRST, LAST, SEVENTH, SIXTH, Table, centre};
 use super::{NEAR, Quantity};
-use crate::rounded::lanes::format::Lane;
-use crate::rounded::lanes::kernel::{BLOCK, Block, NO_SUM, Sum, complements, fused, mark};
+use crate::rounded::lanes::format::{BLOCK, Lane};
+use crate::rounded::lanes::kernel::{Block, Results, complements, fused, halves, mark};
 
 /// Bounds the error before rounding, relative to `V`: theorem (log-odds), *Error in `f64`*.
 pub(super) const ERROR: f64 = 1.2e-19; // 2^-62.85
-/// The least result, but for 0, that the sums hold exactly.
-const LEAST: f64 = f64::from_bits((1023 - 50) << 52); // 2^-50
 
 /// Stores a result of each cell: the nearest float, NaN at NaN, and [`Lane::OPEN`] where it is not decided.
 #[inline(always)]
@@ -43,10 +41,12 @@ pub(in super::super) fn results<Q: Quantity, const FUSED: bool>(
 pub(in super::super) fn sums<const FUSED: bool, const ENTROPY: bool>(
     table: &Table,
     cells: &[f64; BLOCK],
+    places: &mut Results<f64>,
 ) -> Block {
     let mut marks = [mark::OPEN; BLOCK];
-    let (mut entropy, mut information) = (Sum::new(), Sum::new());
-    for (&l, mark) in cells.iter().zip(&mut marks) {
+    let (entropies, informations) = halves(places);
+    let places = entropies.iter_mut().zip(&mut *informations).zip(&mut marks);
+    for (&l, ((entropy, information), mark)) in cells.iter().zip(places) {
         let a = l.abs();
         let (head, tail) = value::<FUSED>(table, inside(a));
         let (below, above) = bounds::<FUSED>(head, tail);
@@ -58,23 +58,22 @@ pub(in super::super) fn sums<const FUSED: bool, const ENTROPY: bool>(
         let mut done = (a >= FIRST) & !beyond;
         let certain = if ENTROPY { a == f64::INFINITY } else { beyond };
         if ENTROPY {
-            // Sums: a float of 53 bits from `LEAST` on is a multiple of `2^-102`.
-            done &= (value == value_above) & (other == other_above) & (value >= LEAST);
+            done &= (value == value_above) & (other == other_above);
             let h = if near { other } else { value };
             let h = if done { h } else { 0.0 };
-            entropy.add(if unknown { 1.0 } else { h });
+            *entropy = if unknown { 1.0 } else { h };
         } else {
             done &= if near { value == value_above } else { other == other_above };
         }
         let i = if near { value } else { other };
         let i = if done { i } else { 0.0 };
-        information.add(if certain { 1.0 } else { i });
+        *information = if certain { 1.0 } else { i };
         let observed = if ENTROPY & (l > 0.0) { mark::OCCUPIED } else { mark::FREE };
         let seen = if unknown { mark::UNKNOWN } else { observed };
         let left = if l.is_nan() { mark::NONE } else { mark::OPEN };
         *mark = if done | unknown | certain { seen } else { left };
     }
-    Block::new(if ENTROPY { entropy.fixed() } else { NO_SUM }, information.fixed(), marks)
+    Block::new::<f64, ENTROPY>(entropies, informations, marks)
 }
 
 /// Returns a magnitude of the table: the nearest one, any for NaN.

@@ -6,16 +6,14 @@
 
 use super::polynomials::{EXP, INFORMATION, INVERSE, LOG};
 use super::{NEAR, Quantity};
-use crate::rounded::lanes::format::Lane;
-use crate::rounded::lanes::kernel::{BLOCK, Block, NO_SUM, Sum, fused, mark};
+use crate::rounded::lanes::format::{BLOCK, Lane};
+use crate::rounded::lanes::kernel::{Block, Results, fused, halves, mark};
 use core::f64::consts::LOG2_E;
 
 /// Bounds the error before rounding, relative to each of entropy, information and occupancy.
 pub(super) const ERROR: f64 = 4e-12; // 2^-37.86
 /// The magnitude from which on results are those of infinity: entropies are below `2^-150`.
 const FAR: f64 = 128.0;
-/// The least result, but for 0, that the sums hold exactly.
-const LEAST: f64 = f64::from_bits((1023 - 79) << 52); // 2^-79
 
 /// `3/2 2^52`: added to a number below `2^51`, it leaves the nearest integer in the last bits.
 const ROUND: f64 = 6755399441055744.0;
@@ -41,31 +39,33 @@ pub(in super::super) fn results<Q: Quantity, const FUSED: bool>(
 
 /// Sums information over the cells of the given log-odds, and entropies or not.
 #[inline(always)]
-pub(in super::super) fn sums<const FUSED: bool, const ENTROPY: bool>(cells: &[f32; BLOCK]) -> Block {
+pub(in super::super) fn sums<const FUSED: bool, const ENTROPY: bool>(
+    cells: &[f32; BLOCK],
+    places: &mut Results<f32>,
+) -> Block {
     let mut marks = [mark::OPEN; BLOCK];
-    let (mut entropy, mut information) = (Sum::<f64>::new(), Sum::<f64>::new());
-    for (&l, mark) in cells.iter().zip(&mut marks) {
+    let (entropies, informations) = halves(places);
+    let places = entropies.iter_mut().zip(&mut *informations).zip(&mut marks);
+    for (&l, ((entropy, information), mark)) in cells.iter().zip(places) {
         let magnitude = magnitude(l);
         let v = value::<FUSED>(magnitude, exp_minus::<FUSED>(magnitude));
         let near = magnitude < NEAR;
         let (value, above) = bounds(v);
         let (other, other_above) = bounds(1.0 - v);
-        // Sums: a float of 24 bits from `LEAST` on is a multiple of `2^-102`.
-        let fits = |x: f32| (f64::from(x) >= LEAST) | (x == 0.0);
         let (i, decided) = if near { (value, value == above) } else { (other, other == other_above) };
-        let mut done = decided & fits(i) & !l.is_nan();
+        let mut done = decided & !l.is_nan();
         if ENTROPY {
             let (h, decided) = if near { (other, other == other_above) } else { (value, value == above) };
-            done &= decided & fits(h);
-            entropy.add(if done { h.into() } else { 0.0 });
+            done &= decided;
+            *entropy = if done { h } else { 0.0 };
         }
-        information.add(if done { i.into() } else { 0.0 });
+        *information = if done { i } else { 0.0 };
         let observed = if ENTROPY & (l > 0.0) { mark::OCCUPIED } else { mark::FREE };
         let seen = if l == 0.0 { mark::UNKNOWN } else { observed };
         let left = if l.is_nan() { mark::NONE } else { mark::OPEN };
         *mark = if done { seen } else { left };
     }
-    Block::new(if ENTROPY { entropy.fixed() } else { NO_SUM }, information.fixed(), marks)
+    Block::new::<f32, ENTROPY>(entropies, informations, marks)
 }
 
 /// Returns the magnitude of log-odds, and [`FAR`] for NaN and whatever is beyond.

@@ -15,13 +15,17 @@ use alloc::vec::Vec;
 use core::f64::consts::LN_2;
 
 /// The least magnitude of log-odds with a row.
-pub(super) const FIRST: f64 = 0.00390625; // 2^-8
+pub(super) const FIRST: f64 = f64::from_bits((1023 - 32) << 52); // 2^-32
 /// The magnitude from which on cells are equally wide, `1/64`; below, each binade has `2^7`.
 pub(super) const EVEN: f64 = 4.0;
 /// The magnitude from which on there are no rows.
-pub(super) const LAST: f64 = 47.75;
-/// The rows: 1280 below [`EVEN`], and a power of two in all, so that an index is a mask.
-pub(super) const ROWS: usize = 4096;
+pub(super) const LAST: f64 = 63.75;
+/// The rows below [`EVEN`].
+const BINADES: usize = 34 << 7;
+/// The rows: a power of two, so that an index is a mask.
+pub(super) const ROWS: usize = 8192;
+/// The places of a column: a page more than the rows. Processors know few pages that are a power of two apart.
+const PLACES: usize = ROWS + 512;
 
 /// The significand bits below those that tell the cells of a binade apart.
 const BELOW: u32 = f64::MANTISSA_DIGITS - 1 - 7;
@@ -31,19 +35,19 @@ const ROUND: f64 = 105553116266496.0;
 /// Holds Taylor's coefficients of a function of the magnitude of log-odds about each centre.
 pub(in super::super) struct Table {
     /// Holds the values, rounded.
-    pub(super) value: Box<[f64; ROWS]>,
+    pub(super) value: Box<[f64; PLACES]>,
     /// Holds the slopes, rounded.
-    pub(super) slope: Box<[f64; ROWS]>,
+    pub(super) slope: Box<[f64; PLACES]>,
     /// Holds what rounding took from both, packed into one word.
-    pub(super) low: Box<[u64; ROWS]>,
+    pub(super) low: Box<[u64; PLACES]>,
     /// Holds the second coefficients.
-    pub(super) second: Box<[f64; ROWS]>,
+    pub(super) second: Box<[f64; PLACES]>,
     /// Holds the third coefficients.
-    pub(super) third: Box<[f64; ROWS]>,
+    pub(super) third: Box<[f64; PLACES]>,
     /// Holds the fourth coefficients and, in the last [`SEVENTH`] bits, the seventh.
-    pub(super) fourth: Box<[u64; ROWS]>,
+    pub(super) fourth: Box<[u64; PLACES]>,
     /// Holds the fifth coefficients and, in the last [`SIXTH`] bits, the sixth.
-    pub(super) fifth: Box<[u64; ROWS]>,
+    pub(super) fifth: Box<[u64; PLACES]>,
 }
 
 /// The bits of a word that hold a seventh coefficient: 6 of its significand.
@@ -63,21 +67,21 @@ pub(in super::super) struct Row {
 /// Returns the centre of the cell in which `x` in `[FIRST, LAST]` lies, and its number, below [`ROWS`].
 #[inline(always)]
 pub(super) fn centre(x: f64) -> (f64, usize) {
-    const FIRST_CELL: u64 = (f64::MAX_EXP as u64 - 1 - 8) << 7;
+    const FIRST_CELL: u64 = FIRST.to_bits() >> BELOW;
     // Series: exponent and leading bits count the cells; their half is one bit more.
     let cell = (x.to_bits() >> BELOW).wrapping_sub(FIRST_CELL);
     let middle = f64::from_bits(x.to_bits() & !((1 << BELOW) - 1) | 1 << (BELOW - 1));
-    // Series: the nearest multiple of 1/64, and that multiple in the last bits; 4 is number 1280.
+    // Series: the nearest multiple of 1/64, and that multiple in the last bits; 4 comes after all binades.
     let shifted = x + ROUND;
-    let even = shifted.to_bits().wrapping_add(1280 - 256);
+    let even = shifted.to_bits().wrapping_add(BINADES as u64 - 256);
     let (centre, number) = if x < EVEN { (middle, cell) } else { (shifted - ROUND, even) };
     (centre, number as usize % ROWS)
 }
 
 /// Returns the centres of all cells, by number.
 pub(super) fn centres() -> impl Iterator<Item = f64> {
-    let below = (0..1280_u64).map(|k| centre(f64::from_bits(FIRST.to_bits() + (k << BELOW))).0);
-    below.chain((256..=3056).map(|k| f64::from(k) / 64.0))
+    let below = (0..BINADES as u64).map(|k| centre(f64::from_bits(FIRST.to_bits() + (k << BELOW))).0);
+    below.chain((256..=4080).map(|k| f64::from(k) / 64.0))
 }
 
 impl Table {
@@ -85,7 +89,7 @@ impl Table {
     pub(in super::super) fn new(row: fn(f64) -> Row) -> Self {
         let mut rows: Vec<Row> = centres().map(row).collect();
         let last = rows[rows.len() - 1];
-        rows.resize(ROWS, last);
+        rows.resize(PLACES, last);
         let float = |of: fn(&Row) -> f64| Box::new(core::array::from_fn(|k| of(&rows[k])));
         let word = |of: fn(&Row) -> u64| Box::new(core::array::from_fn(|k| of(&rows[k])));
         Self {
@@ -111,10 +115,10 @@ pub(in super::super) fn of_information(c: f64) -> Row {
     let (entropy, information) = approximate::from_log_odds(m, e);
     let near = c < NEAR;
     let value = beyond_float::middle(if near { information } else { entropy });
-    // The slope of H is -l q (1 - q) / ln 2; `c` is a number of 13 bits at most over 2^17.
+    // The slope of H is -l q (1 - q) / ln 2; of the 53 bits of `c` at most 13 are not 0.
     let (q, weight) = weight(c);
     let product = mul_high(weight.value, INV_LN2);
-    let slope = Fixed { value: (product >> 23) * (c * 131072.0) as u128, exponent: weight.exponent + 7 };
+    let slope = Fixed { value: (product >> 23) * u128::from(m >> 40), exponent: weight.exponent + 64 + e };
     let sign = if near { 1.0 } else { -1.0 };
     // H^(n + 1) = -(l w^(n) + n w^(n - 1)) / ln 2.
     let w = derivatives(q);

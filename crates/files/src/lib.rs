@@ -45,6 +45,7 @@
 //! | [`ros`] | ROS maps: a yaml file that describes an image |
 //! | [`npy`] | NumPy's arrays |
 //! | `npz` | archives of them |
+//! | `names` | the names of files, by which their kind is known |
 //! | [`gridmap`] | MRPT's grid maps |
 //! | `words` | words that a reader does not understand, counted |
 //! | [`octree`] | OctoMap's octrees, visited node by node |
@@ -66,6 +67,7 @@ mod error;
 pub mod gridmap;
 mod image;
 mod map;
+mod names;
 pub mod npy;
 mod npz;
 pub mod octree;
@@ -85,9 +87,10 @@ mod words;
 pub use cells::{Cells, CellsVisitor, Contents, Counted, Counts, Readable};
 pub use error::{Error, ErrorKind, Place};
 pub use map::Map;
-pub use options::{ArrayEncoding, MAX_CELLS, MAX_COUNTED, Mode, Options, Semantics};
+pub use names::{file_of, is_array, is_description};
+pub use options::{ARRAY_NUMBERS, ArrayEncoding, MAX_CELLS, MAX_COUNTED, Mode, Options, Semantics};
 pub use read::{
-    file_of, read_array_type_from, read_filter_log, read_filter_log_from, read_map, read_map_contents,
+    read_array_type_from, read_filter_log, read_filter_log_from, read_map, read_map_contents,
     read_map_contents_from, read_map_from, read_octree, read_octree_from, read_particles,
     read_particles_from, read_scans, read_scans_from, read_selected_scans, read_submaps, read_submaps_from,
     read_trajectory, read_trajectory_from, read_weights, read_weights_from,

@@ -8,6 +8,10 @@ pub const MAX_CELLS: u64 = 1 << 28;
 /// no memory, but time, and a small file can hold a thousand times as many pixels as bytes.
 pub const MAX_COUNTED: u64 = 1 << 34;
 
+/// The meaning of the numbers of an `.npy` array without an [`ArrayEncoding`], and what one can make of them, in words.
+pub const ARRAY_NUMBERS: &str = "if absent, floats are probabilities, int8 and uint8 percentages, and bool free or occupied; \
+     with it floats may be log-odds, and integers of any width percentages or MRPT's bytes";
+
 /// The loader whose rules turn grey levels into percentages.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
@@ -39,13 +43,13 @@ pub enum Mode {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 pub enum ArrayEncoding {
-    /// Occupancy probabilities (f32 or f64).
+    /// Occupancy probabilities (floats).
     Probability,
-    /// ROS percentages (i8).
+    /// ROS percentages (integers), or free and occupied (bool).
     Percent,
-    /// Log-odds in nats (f32 or f64).
+    /// Log-odds in nats (floats).
     LogOdds,
-    /// MRPT's int8 log-odds of free (i8).
+    /// MRPT's log-odds of free in bytes (integers).
     Mrpt,
 }
 
@@ -59,7 +63,7 @@ pub struct Options {
     /// The value that means unknown: the grey level, of the image's own depth, in [`Mode::Probability`], or a number of an
     /// array of floats, NaN for every NaN.
     pub unknown: Option<f64>,
-    /// The meaning of the numbers of an `.npy` array; if absent, floats are probabilities and int8 are percentages.
+    /// The meaning of the numbers of an `.npy` array; [`ARRAY_NUMBERS`] says which types can mean what.
     pub encoding: Option<ArrayEncoding>,
     /// The side of a cell of an `.npy` array in metres.
     pub resolution: Option<f64>,

@@ -32,6 +32,7 @@
 //! | [`clamp`] | the occupancies of a tree that only tells free from occupied |
 //! | [`measures`] | what is measured of a map |
 //! | [`submaps`] | the submaps of saved states, apart or together |
+//! | [`uses`] | the files that have a use for an option |
 //! | [`octree`] | what is measured of an octree, at each depth |
 //! | [`measured_map`] | a map of any of these kinds, measured: a row |
 //! | [`sweep`] | the measures against the size of cells |
@@ -53,6 +54,7 @@ pub mod record;
 pub mod squares;
 pub mod submaps;
 pub mod sweep;
+pub mod uses;
 pub mod words;
 pub mod worst;
 

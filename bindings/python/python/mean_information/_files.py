@@ -11,15 +11,6 @@ from . import _native
 from ._arrays import Encoding, known, refusal
 from ._native import Map
 
-_FOR = {
-    "semantics": ("image", "ROS maps"),
-    "mode": ("image", "ROS maps"),
-    "unknown": ("image array", "ROS maps and arrays of floats"),
-    "encoding": ("array", "arrays, .npy and .npz; other files say it themselves"),
-    "resolution": ("array", "arrays, .npy and .npz; other files say it themselves"),
-    "topic": ("bag", "bags"),
-}
-
 
 def read_map(
     path: str | PathLike[str],
@@ -72,10 +63,17 @@ def read_map(
     """
     if encoding is not None:
         known(encoding)
-    kind, dtype = _native.kind_of_map(path)
-    for name, value in zip(_FOR, (semantics, mode, unknown, encoding, resolution, topic), strict=True):
-        kinds, its_files = _FOR[name]
-        if value is not None and kind not in kinds.split():
+    dtype = _native.type_of_array(path)
+    given = {
+        "semantics": semantics,
+        "mode": mode,
+        "unknown": unknown,
+        "encoding": encoding,
+        "resolution": resolution,
+        "topic": topic,
+    }
+    for name, value in given.items():
+        if value is not None and (its_files := _native.no_use(name, path)):
             raise ValueError(f"{fspath(path)}: {name} is {value!r}, which is for {its_files}")
     if dtype is not None and (words := refusal(np.dtype(dtype), encoding or "probability")):
         raise ValueError(f"{fspath(path)}: {words}")

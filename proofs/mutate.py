@@ -18,8 +18,8 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-FIXED, APPROXIMATE, GAUSSIAN, LOG_ODDS = (
-    f"src/rounded/{name}.rs" for name in ("fixed", "approximate", "gaussian", "log_odds"))
+FIXED, APPROXIMATE, GAUSSIAN, SHORT, LOG_ODDS = (
+    f"src/rounded/{name}.rs" for name in ("fixed", "approximate", "gaussian", "short_gaussian", "log_odds"))
 
 
 def error_constant(name, exponent, smaller, *where):
@@ -193,6 +193,17 @@ MUTATIONS = [
     ("half_square: ratio << 2, in both", "half_square.gappa",
      both(GAUSSIAN, "half_square", ("mul_high(ratio << 1, ratio << 1)", "mul_high(ratio << 2, ratio << 2)"),
           ("floor(ratio * 1b1 * (ratio * 1b1) * 1b-128);\n#: let exponent", "floor(ratio * 1b2 * (ratio * 1b2) * 1b-128);\n#: let exponent"))),
+    ("SHORT_ERROR 14, in both", "short_gaussian.gappa",
+     [(SHORT, "SHORT_ERROR: u128 = 16;", "SHORT_ERROR: u128 = 14;"),
+      ("proofs/short_gaussian.gappa", "SHORT_ERROR = 16;", "SHORT_ERROR = 14;")]),
+    ("short_gaussian: 1 / m of 62 bits, in both", "short_gaussian.gappa",
+     both(SHORT, "short_gaussian", ("let inverse = ((1 << 116) - 1) / u128::from(m);", "let inverse = ((1 << 116) - 1) / u128::from(m) >> 2 << 2;"),
+          ("inverse = floor((1b116 - 1) / m);", "inverse = floor(floor((1b116 - 1) / m) * 1b-2) * 1b2;"))),
+    ("short_gaussian: g cut to 60 bits, in both", "short_gaussian.gappa",
+     both(SHORT, "short_gaussian", ("let g_71 = (g >> 1) as i64;", "let g_71 = (g >> 5 << 4) as i64;"),
+          ("g_71 = floor(g * 1b-1);", "g_71 = floor(g * 1b-5) * 1b4;"))),
+    ("short_gaussian.rs alone: half of SHORT_ERROR", "source",
+     [(SHORT, "around(y, SHORT_ERROR, ", "around(y, SHORT_ERROR / 2, ")]),
     ("gaussian.rs alone: t^2 instead of t^2 / 2", "source", [(GAUSSIAN, "2 * e + 129", "2 * e + 130")]),
     ("gaussian.rs alone: half of EXP_ERROR", "source", [(GAUSSIAN, "around(y, EXP_ERROR, ", "around(y, EXP_ERROR / 2, ")]),
     ("constants.sollya: Q of degree 5 instead of 6", "constants.sollya",

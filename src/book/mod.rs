@@ -35,11 +35,10 @@ chapters! {
     notation;
     cell;
     map;
-    octrees;
     sensor;
     grids;
-    scan;
     fusion;
+    scan;
     evidence shows "figures/evidence.svg";
     expected shows "figures/csail.svg";
     limit;
@@ -57,6 +56,7 @@ chapters! {
     operations;
     porting;
     files;
+    octrees;
     tally_format;
     fleets;
     paper;

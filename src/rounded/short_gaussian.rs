@@ -31,14 +31,14 @@ pub(super) fn short_gaussian<T: Real>(x: T, z: T, m: u64, e: i32) -> Option<Fixe
     let r = u64::try_from((ratio * ratio) >> shift).ok()?;
     // r / ln 2, scale 125 = 62 + 63: 3 bits before the point, 8 that choose from the table, and g of 64 bits, scale 72.
     let t = u128::from(r) * (INV_LN2 >> 64);
-    let (k, i, g) = ((t >> 125) as i32, (t >> 117) as u8, (t >> 53) as u64);
+    let (k, i, g) = ((t >> 125) as i32, usize::from((t >> 117) as u8), (t >> 53) as u64);
     let g_71 = (g >> 1) as i64;
     // ln 2 - g R(g), scale 64 = 71 + 63 - 70.
     let slope = (LN2 >> 63) as u64 - ((i128::from(g_71) * i128::from(horner(&EXP_R, g_71, 71))) >> 70) as u64;
     // 2^-g, scale 63: g slope has scale 136.
     let power = (1 << 63) - ((u128::from(g) * u128::from(slope)) >> 73);
     // e^-r 2^k, scale 62 = 63 + 63 - 64.
-    let y = ((EXP_TABLE[usize::from(i)] >> 64) * power) >> 64;
+    let y = ((EXP_TABLE[i] >> 64) * power) >> 64;
     Some(FixedEnclosure::around(y, SHORT_ERROR, -62 - k))
 }
 

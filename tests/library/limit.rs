@@ -85,22 +85,26 @@ fn they_agree_at_the_turns_of_the_model() {
     }
 }
 
-/// No more than GSL's `qagp` takes at `z / σ = 10`, and the promise of `limit::adaptive`, by every rule.
+/// No more than GSL's `qagp` takes at `z / σ = 10`, and the promise of `limit::adaptive`: the most by each rule, as the chapter has it.
 #[test]
-fn twelve_digits_in_550_evaluations() {
+fn twelve_digits_in_545_evaluations() {
+    let mut most = [0; 6];
     for tenth in -60..=90 {
         let ratio = exp(ln(10.0) * 0.1 * f64::from(tenth));
         let sensor = GaussianSensor::new(0.25 * ratio, 0.25).unwrap();
-        for (rule, weight) in Rule::ALL.into_iter().flat_map(|rule| WEIGHTS.map(|weight| (rule, weight))) {
+        for ((k, rule), weight) in
+            Rule::ALL.into_iter().enumerate().flat_map(|rule| WEIGHTS.map(|weight| (rule, weight)))
+        {
             let estimate =
                 adaptive(&sensor, weight, &GaussKronrod::new().relative(1e-12).rule(rule)).unwrap();
             assert_eq!(estimate.status, Status::Converged, "{ratio:e}, {rule:?}, {weight:?}");
-            assert!(estimate.evaluations <= 550, "{ratio:e}, {rule:?}, {weight:?}: {estimate:?}");
+            most[k] = estimate.evaluations.max(most[k]);
             // The closed form is within an ulp, which is at most epsilon / 2.
             let error = (estimate.value - closed_form(&sensor, weight)).abs();
             assert!(error <= estimate.error + f64::EPSILON / 2.0, "{ratio:e}, {rule:?}: {estimate:?}");
         }
     }
+    assert_eq!(most, [545, 383, 253, 333, 412, 492]);
 }
 
 /// The bound on a model's tail does not hide what is there, nor what is undefined.

@@ -7,7 +7,7 @@ use std::fs;
 pub(crate) struct Source {
     /// All lines, trimmed.
     pub(crate) lines: Vec<String>,
-    /// The statements of each function of `fixed.rs`, `approximate.rs`, `gaussian.rs` and `log_odds.rs`.
+    /// The statements of each function of `fixed.rs`, `approximate.rs`, `gaussian.rs`, `short_gaussian.rs` and `log_odds.rs`.
     pub(crate) functions: BTreeMap<String, Vec<String>>,
     /// Integer constants; the elements of an array are `NAME_0`, `NAME_1`, ....
     pub(crate) constants: BTreeMap<String, Integer>,
@@ -37,12 +37,15 @@ impl Integer {
 
 impl Source {
     pub(crate) fn read() -> Self {
-        let [fixed, approximate, gaussian, log_odds, constants, round] =
-            ["fixed", "approximate", "gaussian", "log_odds", "constants", "round"].map(|name| {
-                let text = fs::read_to_string(format!("src/rounded/{name}.rs")).expect("the source is there");
-                text.split("#[cfg(test)]").next().expect("the code before its tests").to_owned()
-            });
-        let quoted = [fixed, approximate, gaussian, log_odds].join("\n");
+        let [fixed, approximate, gaussian, short_gaussian, log_odds, constants, round] =
+            ["fixed", "approximate", "gaussian", "short_gaussian", "log_odds", "constants", "round"].map(
+                |name| {
+                    let text =
+                        fs::read_to_string(format!("src/rounded/{name}.rs")).expect("the source is there");
+                    text.split("#[cfg(test)]").next().expect("the code before its tests").to_owned()
+                },
+            );
+        let quoted = [fixed, approximate, gaussian, short_gaussian, log_odds].join("\n");
         let all = [quoted.as_str(), &constants, &round].join("\n");
         let code = without_comments(&quoted);
         Self {

@@ -1,5 +1,6 @@
 //! The kernel against the enclosures, and its blocks against cells one by one.
 
+use super::elementwise::of_occupancies;
 use super::format::{HALF, Lane};
 use super::kernel::{BLOCK, Block, series, value};
 use super::table::{Rows, Table, row};
@@ -160,20 +161,33 @@ fn errors_are_within_the_bounds() {
     assert!(single > 0.1 && double > 0.1, "{single} {double}");
 }
 
-/// What a block must have found, from its cells one by one.
-fn check<T: Lane, const FUSED: bool, const ENTROPY: bool>(table: &Table<T>, cells: &[T; BLOCK]) -> usize {
+/// What a block must have found, and what must be stored, from its cells one by one.
+fn check<T: Lane, const FUSED: bool, const ENTROPY: bool>(
+    table: &Table<T>,
+    cells: &[T; BLOCK],
+    singles: &[Option<Cell<T>>; BLOCK],
+) -> usize {
+    let mut results = [T::HALF; BLOCK];
+    of_occupancies::<T, FUSED, ENTROPY>(table, cells, &mut results);
+    for ((&p, &result), single) in cells.iter().zip(&results).zip(singles) {
+        let one = single.map_or(T::nan(), |cell| if ENTROPY { cell.entropy() } else { cell.information() });
+        assert!(
+            result == T::OPEN || result == one || one.is_nan() && result.is_nan(),
+            "{p:e}: {result:e} for {one:e}"
+        );
+    }
     let block = Block::of::<T, FUSED, ENTROPY>(table, cells);
     let (mut entropy, mut information) = (ExactSum::new(), ExactSum::new());
     let mut states = Vec::new();
     let open: Vec<T> = block.open(cells).collect();
     assert!(open.iter().all(|&p| Cell::from_occupancy(p).is_ok()), "only cells are left open");
     let mut left = open.iter().copied().peekable();
-    for &p in cells {
+    for (&p, &single) in cells.iter().zip(singles) {
         if left.next_if(|&x| x == p).is_some() {
             continue;
         }
         // What is no probability is passed over.
-        let Ok(cell) = Cell::from_occupancy(p) else { continue };
+        let Some(cell) = single else { continue };
         entropy.add(cell.entropy());
         information.add(cell.information());
         states.push(cell.state());
@@ -198,13 +212,19 @@ fn check<T: Lane, const FUSED: bool, const ENTROPY: bool>(table: &Table<T>, cell
 
 /// The fewest cells that a kernel decides.
 fn check_all<T: Lane>(table: &Table<T>, cells: &[T; BLOCK]) -> usize {
+    let singles = singles(cells);
     let decided = [
-        check::<T, true, true>(table, cells),
-        check::<T, false, true>(table, cells),
-        check::<T, true, false>(table, cells),
-        check::<T, false, false>(table, cells),
+        check::<T, true, true>(table, cells, &singles),
+        check::<T, false, true>(table, cells, &singles),
+        check::<T, true, false>(table, cells, &singles),
+        check::<T, false, false>(table, cells, &singles),
     ];
     decided.into_iter().min().unwrap_or(0)
+}
+
+/// The cells one by one; none where there is no probability.
+fn singles<T: Lane>(cells: &[T; BLOCK]) -> [Option<Cell<T>>; BLOCK] {
+    cells.map(|p| Cell::from_occupancy(p).ok())
 }
 
 /// Repeats the cells until the block is full.
@@ -231,8 +251,9 @@ fn special<T: Lane>() {
     let sure = T::from_parts(1, -T::SUREST - 1);
     assert_eq!(check_all(table, &filled(&[sure])), BLOCK);
     let surer = filled(&[sure - sure * ulp]);
-    assert_eq!(check::<T, true, true>(table, &surer), 0);
-    assert_eq!(check::<T, true, false>(table, &surer) == 0, T::SUREST == T::BINADES);
+    let singles = singles(&surer);
+    assert_eq!(check::<T, true, true>(table, &surer, &singles), 0);
+    assert_eq!(check::<T, true, false>(table, &surer, &singles) == 0, T::SUREST == T::BINADES);
     let quarter = T::HALF * T::HALF;
     let borders =
         [edge, T::HALF - edge, T::HALF + edge, quarter, quarter + ulp, quarter - ulp, one - quarter];

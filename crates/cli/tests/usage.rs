@@ -63,6 +63,7 @@ fn usage_errors_are_one_line() {
         (&["map", map, map, "--heat-map", "a.png"], "one map"),
         (&["trajectory", map, "--maps", "a.png"], ".svg"),
         (&["sweep", map, map], "unexpected"),
+        (&["bag", map, "--costmaps"], "--topic <TOPIC>"),
         (&["check", "node", "port.mjs"], "put -- before the command"),
         (&["sweep", map, "--plot", "a.pdf"], ".svg or .png"),
         (&["sweep", map, "--plot", "svg"], ".svg or .png"),

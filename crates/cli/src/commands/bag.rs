@@ -22,7 +22,7 @@ pub struct Arguments {
     #[arg(long)]
     topic: Option<String>,
     /// Take costmaps for maps of occupancies: their cells are costs of driving, not percentages.
-    #[arg(long)]
+    #[arg(long, requires = "topic")]
     costmaps: bool,
     /// Leave out maps that were recorded sooner than this after the one before in the result.
     #[arg(long, value_name = "SECONDS", value_parser = positive::<f64>)]
@@ -43,12 +43,11 @@ impl Arguments {
         let wanted = MapTopic { name: self.topic.clone(), costmaps: self.costmaps };
         let options = Options { max_cells: self.max_cells, ..Options::default() };
         let mut files = Files::new();
-        files.read([self.bag.clone()]);
+        files.read(bag_files(&self.bag)?);
         self.writing.check(&files, self.plot.as_deref())?;
         // Rounded to the clock's ticks; what is longer than it counts is never over.
         let every = self.every.map(|every| (every * 1e9).round() as u64);
         let series = Series::read(&self.bag, &wanted, every, &options)?;
-        files.read(bag_files(&self.bag)?);
         if let (Some(path), Some(picture)) = (&self.plot, picture) {
             let title = format!("{}, {}", plots::title(&self.bag), series.topic);
             files.add(path, SeriesPlot::new(&series, title).draw(picture)?);

@@ -9,6 +9,7 @@ use crate::tally::{Format, PyTally};
 use mean_information::expected::Hypotheses;
 use mean_information::map::{Encoding, Geometry, Grid};
 use mean_information::{Error, Real};
+use num_traits::float::FloatCore;
 use numpy::PyArrayMethods;
 use numpy::ndarray::ArrayView2;
 use pyo3::exceptions::PyValueError;
@@ -19,7 +20,7 @@ use pyo3::prelude::*;
 /// Attributes
 /// ----------
 /// probabilities : ndarray
-///     The mean occupancies, each rounded once.
+///     The mean occupancies, each rounded once; NaN where cells were left out.
 /// tally : Tally
 ///     The sums over the exact means; `tally.mean_information` is the EMMI.
 /// mean_of_particles : float
@@ -73,22 +74,29 @@ pub(crate) fn expected_map(
     particles: Vec<Bound<'_, PyAny>>,
     weights: Vec<f64>,
     encoding: &str,
+    mask: Option<numpy::PyReadonlyArray2<'_, u8>>,
 ) -> PyResult<PyExpectedMap> {
     let Some(first) = particles.first() else {
         return Err(PyValueError::new_err("number of particles is 0, allowed is 1 or more"));
     };
+    let mask = mask.as_ref().map(numpy::PyReadonlyArray2::as_array);
     with_encoding!(Array::new(first, encoding)?, _first, Encoding_ => {
         let mut maps = Vec::with_capacity(particles.len());
         for (index, particle) in particles.iter().enumerate() {
             let array = particle.extract::<numpy::PyReadonlyArray2<'_, <Encoding_ as Encoding>::Stored>>()?;
-            maps.push(grid::<Encoding_>(index, array.as_array())?);
+            maps.push(grid::<Encoding_>(index, array.as_array(), mask)?);
         }
-        expected::<Encoding_>(py, maps, weights)
+        expected::<Encoding_>(py, maps, weights, mask)
     })
 }
 
 /// Computes the expected map of grids.
-fn expected<E>(py: Python<'_>, maps: Vec<Grid<E>>, weights: Vec<f64>) -> PyResult<PyExpectedMap>
+fn expected<E>(
+    py: Python<'_>,
+    maps: Vec<Grid<E>>,
+    weights: Vec<f64>,
+    mask: Option<ArrayView2<'_, u8>>,
+) -> PyResult<PyExpectedMap>
 where
     E: Encoding<Float: Format, Stored: Send> + Send + 'static,
 {
@@ -97,8 +105,18 @@ where
         Ok::<_, mean_information::Error>((hypotheses.expected_map()?, hypotheses.mean_of_mean_information()))
     })?;
     let (map, mean) = computed.map_err(refused)?;
-    let shape = [map.grid().height(), map.grid().width()];
-    let probabilities = numpy::PyArray1::from_slice(py, map.grid().cells()).reshape(shape)?;
+    let cells = map.grid().cells();
+    let probabilities = match mask {
+        None => numpy::PyArray1::from_slice(py, cells).reshape([map.grid().height(), map.grid().width()])?,
+        Some(mask) => {
+            let mut chosen = cells.iter().copied();
+            let cell = |&meant: &u8| {
+                let next = if meant == 0 { None } else { chosen.next() };
+                next.unwrap_or_else(FloatCore::nan)
+            };
+            numpy::PyArray2::from_owned_array(py, mask.map(cell))
+        }
+    };
     Ok(PyExpectedMap {
         probabilities: probabilities.into_any().unbind(),
         tally: Py::new(py, PyTally::from(map.tally().clone()))?,
@@ -106,19 +124,35 @@ where
     })
 }
 
-/// Copies the map of a particle from an array.
-fn grid<E: Encoding>(particle: usize, cells: ArrayView2<'_, E::Stored>) -> PyResult<Grid<E>> {
-    let (height, width) = cells.dim();
+/// Copies the map of a particle from an array; where there is a mask, those of its cells that are meant, as one row.
+fn grid<E: Encoding>(
+    particle: usize,
+    cells: ArrayView2<'_, E::Stored>,
+    mask: Option<ArrayView2<'_, u8>>,
+) -> PyResult<Grid<E>> {
+    let (mut height, mut width) = cells.dim();
     let mut copied = Vec::new();
     copied.try_reserve_exact(cells.len()).map_err(|_| out_of_memory())?;
-    match cells.as_slice() {
-        Some(cells) => copied.extend_from_slice(cells),
-        None => copied.extend(cells.iter()),
+    match (mask, cells.as_slice()) {
+        (Some(mask), _) => {
+            copied.extend(cells.iter().zip(&mask).filter(|&(_, &meant)| meant != 0).map(|(cell, _)| cell));
+            (height, width) = (1, copied.len());
+        }
+        (None, Some(cells)) => copied.extend_from_slice(cells),
+        (None, None) => copied.extend(cells.iter()),
     }
+    let place = |row: usize, column: usize| {
+        let meant = |mask: ArrayView2<'_, u8>| {
+            let chosen = mask.indexed_iter().filter(|&(_, &meant)| meant != 0);
+            chosen.map(|(place, _)| place).nth(column)
+        };
+        mask.and_then(meant).unwrap_or((row, column))
+    };
     let map = Geometry::new(1.0, [0.0; 2]).and_then(|geometry| Grid::new(width, height, geometry, copied));
     map.map_err(|error| {
         PyValueError::new_err(match error {
             Error::Cell { row, column, value, allowed } => {
+                let (row, column) = place(row, column);
                 format!("particles[{particle}][{row}, {column}] is {}, allowed is {allowed}", shown(value))
             }
             error => format!("particles[{particle}]: {error}"),

@@ -5,6 +5,7 @@ use crate::interruptible::run;
 use crate::pickled::{Made, made};
 use crate::trajectory::{PyTrajectory, numbers};
 use mean_information::scan::Pose;
+use mean_information_files::bags::{bag_files, is_bag};
 use mean_information_files::scans::{Bearings, Frame, RangeScan, Reading, ScanLog, ScanOptions, TimeField};
 use mean_information_files::{Warning, read_scans_from, read_trajectory_from};
 use mean_information_report::words::in_words;
@@ -192,6 +193,8 @@ pub(crate) fn words(warnings: &[Warning]) -> Vec<String> {
 
 /// Read a log of range scans: CARMEN's, `.log` or `.clf`, or the nodes of Cartographer's state, `.pbstream`.
 ///
+/// Bags are refused: `read_bag` reads their maps, and the command ``meaninfo trajectory`` compares trajectories by their scans.
+///
 /// Parameters
 /// ----------
 /// path : path-like
@@ -217,6 +220,12 @@ pub(crate) fn read_scans(
     max_range: Option<f64>,
     time: Option<&str>,
 ) -> PyResult<PyScanLog> {
+    if is_bag(&path) {
+        // A folder without one is refused as such.
+        bag_files(&path).map_err(of_file)?;
+        let words = "is a bag: read_bag reads its maps, and the command `meaninfo trajectory` its scans";
+        return Err(PyValueError::new_err(format!("{}: {words}", path.display())));
+    }
     let is_state = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("pbstream"));
     let time = match time {
         Some(time) if is_state => {

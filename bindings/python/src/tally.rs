@@ -121,7 +121,8 @@ impl PyTally {
         with_tally!(&self.0, tally => tally.information().widen())
     }
 
-    /// Mean information in bits per observed cell, Eq. 4; 0.0 if no cell is observed. Within 1.5 ulp of the exact one (proved).
+    /// Mean information in bits per observed cell, Eq. 4; 0.0 if no cell is observed, where the command prints none: see
+    /// `meaningful`. Within 1.5 ulp of the exact one (proved).
     #[getter]
     pub(crate) fn mean_information(&self) -> f64 {
         with_tally!(&self.0, tally => tally.mean_information().widen())

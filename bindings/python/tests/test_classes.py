@@ -47,6 +47,33 @@ def test_expected_maps_of_every_encoding():
     assert mi.expected_map([np.array([[-32]], np.int8)], encoding="mrpt").tally.occupied == 1
 
 
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_where_leaves_cells_of_all_particles_out(dtype):
+    random = np.random.default_rng(12)
+    particles = random.random((4, 5, 6)).astype(dtype)
+    where = random.random((5, 6)) < 0.6
+    particles[:, ~where] = np.nan
+    expected = mi.expected_map(particles, [1, 2, 3, 4], where=where)
+    chosen = mi.expected_map([particle[where][None] for particle in particles], [1, 2, 3, 4])
+    assert expected.tally == chosen.tally and expected.mean_of_particles == chosen.mean_of_particles
+    assert np.isnan(expected.probabilities[~where]).all() and expected.probabilities.dtype == dtype
+    np.testing.assert_array_equal(expected.probabilities[where], chosen.probabilities[0])
+    column = mi.expected_map(particles[:, :, :1], where=where[:, :1])
+    assert column.tally == mi.expected_map(particles[:, :, :1], where=np.asfortranarray(where)[:, :1]).tally
+    # A cell that is not allowed is named by its place in its map.
+    row, place = np.argwhere(where)[-1]
+    particles[2, row, place] = 1.5
+    with pytest.raises(ValueError, match=rf"^particles\[2\]\[{row}, {place}\] is 1.5, allowed is"):
+        mi.expected_map(particles, where=where)
+    with pytest.raises(ValueError, match="where has 3 dimensions, allowed are those of a map"):
+        mi.expected_map(particles, where=np.ones(particles.shape, bool))
+    with pytest.raises(ValueError, match="broadcast"):
+        mi.expected_map(particles, where=where[1:])
+    with pytest.raises(TypeError, match="where takes booleans"):
+        mi.expected_map(particles, where=[1])
+    assert mi.expected_map(particles, where=False).tally.cells == 0
+
+
 def test_bad_particles_are_refused():
     good = np.full((2, 3, 4), 0.25)
     bad = good.copy()

@@ -77,6 +77,18 @@ def test_half_precision_is_of_memory_alone(encoding, tmp_path):
         assert mi.read_map(tmp_path / "map.npy", encoding=encoding).tally == mi.tally(cells, encoding=encoding)
 
 
+def test_scans_of_bags_are_the_commands(tmp_path):
+    (tmp_path / "run").mkdir()
+    (tmp_path / "run" / "run_0.mcap").write_bytes(b"")
+    for bag in ("run", "run.mcap"):
+        with pytest.raises(ValueError, match=r"is a bag: read_bag reads its maps, and the command `meaninfo trajectory` its scans$"):
+            mi.read_scans(tmp_path / bag)
+    (tmp_path / "empty").mkdir()
+    for read in (mi.read_scans, mi.read_map, mi.read_bag):
+        with pytest.raises(IsADirectoryError, match="is a folder that holds no bag"):
+            read(tmp_path / "empty")
+
+
 @pytest.mark.parametrize("dtype", [np.bool_, np.uint8, np.int8, np.uint16])
 def test_no_encoding_is_guessed_from_the_type_of_a_file(dtype, tmp_path):
     np.save(tmp_path / "map.npy", np.array([[0, 1]]).astype(dtype))

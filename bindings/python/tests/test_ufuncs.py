@@ -169,6 +169,15 @@ def test_other_types_are_refused():
             mi.entropy(cells)
 
 
+@pytest.mark.skipif(np.dtype(np.longdouble).itemsize <= 8, reason="longdouble has no more digits here")
+@pytest.mark.parametrize("ufunc", UFUNCS)
+def test_longdouble_is_refused_with_a_way_out(ufunc):
+    cells = np.array([0.25, 0.5], np.longdouble)
+    with pytest.raises(TypeError, match=rf"{ufunc.__name__}\(cells.astype\(np.float64\)\) rounds the numbers first"):
+        ufunc(cells)
+    assert ufunc(cells.astype(np.float64)).dtype == np.float64
+
+
 @pytest.mark.parametrize("dtype", [np.float16, np.float32, np.float64])
 def test_outside_the_domain_is_nan_with_numpys_warning(dtype):
     bad = np.array([-0.5, 1.5, np.inf, -np.inf], dtype)

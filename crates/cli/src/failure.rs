@@ -34,6 +34,8 @@ pub enum Failure {
     },
     /// A picture cannot be drawn.
     Drawing(String),
+    /// What is asked for is not within this program, as it was built.
+    NotBuiltIn(&'static str),
     /// Several inputs are refused, each for its own reason.
     Several(Vec<Failure>),
 }
@@ -48,6 +50,7 @@ impl fmt::Display for Failure {
             Self::Vectors(message) => write!(f, "the vectors built in: {}", one_line(message)),
             Self::Port { command, message } => write!(f, "{}: {}", one_line(command), one_line(message)),
             Self::Drawing(message) => write!(f, "the picture cannot be drawn: {}", one_line(message)),
+            Self::NotBuiltIn(message) => f.write_str(message),
             Self::Several(failures) => {
                 let lines: Vec<String> = failures.iter().map(ToString::to_string).collect();
                 f.write_str(&lines.join("\nmeaninfo: "))

@@ -58,14 +58,21 @@ fn said(other: &str) -> String {
     text.lines().find(|line| line.contains("moves ")).unwrap().to_owned()
 }
 
+fn number(of: &Value, key: &str) -> f64 {
+    of[key].as_f64().unwrap()
+}
+
+/// Writes the true poses, from each of some on by 0.3 m more off than before.
+fn jumping(folder: &Folder, at: &[usize]) -> String {
+    changed(folder, "jump.tum", 12, |k, [time, x, y, yaw]| {
+        [time, x + 0.3 * at.iter().filter(|&&jump| jump <= k).count() as f64, y, yaw]
+    })
+}
+
 #[test]
 fn a_jump_is_found_where_it_is() {
     let folder = Folder::new();
-    // From the hundredth pose on.
-    let jump = changed(&folder, "jump.tum", 12, |k, [time, x, y, yaw]| {
-        [time, x + if k < 100 { 0.0 } else { 0.3 }, y, yaw]
-    });
-    let line = said(&jump);
+    let line = said(&jumping(&folder, &[100]));
     let after = |words: &str| {
         let (_, rest) = line.rsplit_once(words).unwrap();
         rest.split(' ').next().unwrap().parse::<f64>().unwrap()
@@ -76,6 +83,37 @@ fn a_jump_is_found_where_it_is() {
     assert!(after("most from ") - 0.05 <= since(99) && since(100) <= after(" to ") + 0.05, "{line}");
     let by = "by 0.30 m, seen from its heading at the start, and 0.0 degrees, 100 % of all that the 20 parts of the log differ by";
     assert!(line.ends_with(by), "{line}");
+}
+
+/// In words three, in JSON all; where there are more than one in four parts the two part all along.
+#[test]
+fn all_jumps_are_found() {
+    let folder = Folder::new();
+    let poses = true_poses();
+    let since = |k: usize| poses[k][0] - poses[0][0];
+    for (jumps, end) in [(&[31, 100][..], "0.0 degrees"), (&[12, 31, 70, 85, 100], "; and in 2 more")] {
+        let path = jumping(&folder, jumps);
+        let line = said(&path);
+        let words = format!(
+            "moves differently from room.true.tum most in {} of the 20 parts of the log, which have 100 % of all that these differ \
+             by: from ",
+            jumps.len()
+        );
+        assert!(line.contains(&words) && line.ends_with(end), "{line}");
+        assert_eq!(line.matches("by 0.30 m").count(), jumps.len().min(3), "{line}");
+        let rows = rows(&[LOG, TRUE, &path, "--resolution", "0.2"]);
+        let mut found: Vec<_> = rows[1]["partings"].as_array().unwrap().iter().collect();
+        found.sort_by(|a, b| number(a, "from_s").total_cmp(&number(b, "from_s")));
+        assert_eq!(found.len(), jumps.len());
+        for (part, &jump) in found.iter().zip(jumps) {
+            assert!(
+                number(part, "from_s") <= since(jump - 1) && since(jump) <= number(part, "to_s"),
+                "{part}"
+            );
+        }
+    }
+    let line = said(&jumping(&folder, &[12, 31, 50, 70, 85, 100]));
+    assert!(line.contains(" all along the log: by 1.80 m and 0.0 degrees, "), "{line}");
 }
 
 /// The sums over the parts, by the poses alone.

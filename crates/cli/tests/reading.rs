@@ -5,6 +5,7 @@ mod common;
 use common::*;
 use mean_information_test_support::formats::{pgm, yaml};
 use serde_json::Value;
+use std::fs;
 
 /// The warnings of a map.
 fn warnings(map: &str, more: &[&str]) -> Vec<String> {
@@ -68,6 +69,27 @@ fn the_grey_that_means_unknown_is_said_as_the_option_takes_it() {
 }
 
 #[test]
+fn what_another_command_takes_is_named_with_it() {
+    let folder = Folder::new();
+    let map = folder.ros_map("room", 5, &GREYS, "scale");
+    let log = folder.text_path("run.log");
+    fs::write(&log, "ODOM 0 0 0 0 0 0 1 robot 1\n").unwrap();
+    let maps = "is a map by its name, and a log of scans is wanted here; `meaninfo map` measures maps, one or several";
+    assert_eq!(refusal(&["trajectory", &map, &map]), format!("meaninfo: {map}: {maps}\n"));
+    let maps = maps.replace("a log of scans", "a trajectory");
+    let scans = concat!(env!("CARGO_MANIFEST_DIR"), "/../../maps/room.log");
+    assert_eq!(refusal(&["trajectory", scans, &map]), format!("meaninfo: {map}: {maps}\n"));
+    let scans = "is a log of scans by its name, and a map is wanted here; `meaninfo trajectory` takes scans, and trajectories \
+                 after them";
+    for command in ["map", "sweep"] {
+        assert_eq!(refusal(&[command, &log]), format!("meaninfo: {log}: {scans}\n"));
+    }
+    let line = refusal(&["map", &folder.text_path(".")]);
+    let words = "is a folder that holds no bag, no .mcap, .db3 or .bag file; allowed are files, and folders of bags\n";
+    assert!(line.ends_with(words), "{line}");
+}
+
+#[test]
 fn refusals_name_the_options_that_mend_them() {
     let folder = Folder::new();
     let map = folder.ros_map("room", 5, &GREYS, "scale");
@@ -76,8 +98,8 @@ fn refusals_name_the_options_that_mend_them() {
     assert_eq!(
         line,
         format!(
-            "meaninfo: {image}: claims 5 x 3 = 15 cells, more than the limit of 14; raise it with --max-cells if the \
-             file is meant\n"
+            "meaninfo: {image}: claims 5 x 3 = 15 cells, more than the limit of 14 (the image that {map} names); raise it with \
+             --max-cells if the file is meant\n"
         )
     );
     let line = refusal(&["map", &map, "--unknown", "127"]);
@@ -85,8 +107,10 @@ fn refusals_name_the_options_that_mend_them() {
     // No option raises what memory cannot number.
     folder.write("endless.pgm", b"P5 4294967295 4294967295 255\n1");
     let map = folder.write("map.yaml", yaml("endless.pgm", "negate: 0\n"));
-    let line = refusal(&["map", map.to_str().unwrap()]);
-    assert!(line.ends_with("cells, more than the limit of 9223372036854775807\n"), "{line}");
+    let map = map.to_str().unwrap();
+    let line = refusal(&["map", map]);
+    let words = format!("cells, more than the limit of 9223372036854775807 (the image that {map} names)\n");
+    assert!(line.ends_with(&words), "{line}");
 }
 
 /// The arguments as slices.

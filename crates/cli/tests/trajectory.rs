@@ -245,7 +245,7 @@ fn bad_input_is_refused() {
     ] {
         refused(&written(&folder, name, ""), &[], &[name, what]);
     }
-    refused(ROOT, &[], &["is no log of scans by its name"]);
+    refused(ROOT, &[], &["is a folder that holds no bag", "allowed are files, and folders of bags"]);
     // Trajectories.
     let poses = |name: &str, lines: &str| written(&folder, name, lines);
     refused(

@@ -210,7 +210,14 @@ fn a_large_image_is_counted_and_not_kept() {
     fs::write(folder.path("room.pgm"), "P5 32768 8193 255\nmore").unwrap();
     assert!(refusal(&["map", &map]).contains("cut short"));
     let picture = folder.text_path("picture.png");
-    for arguments in [&["map", &map, "--heat-map", &picture][..], &["sweep", &map]] {
+    // No limit helps with what the file does not hold.
+    let commands = [&["map", &map, "--heat-map", &picture][..], &["sweep", &map]];
+    for arguments in commands {
+        let line = refusal(arguments);
+        assert!(line.ends_with(&format!("it is cut short (the image that {map} names)\n")), "{line}");
+    }
+    fs::File::options().write(true).open(folder.path("room.pgm")).unwrap().set_len(300_000_000).unwrap();
+    for arguments in commands {
         let line = refusal(arguments);
         assert!(line.contains("32768 x 8193 = 268468224 cells, more than the limit of 268435456"), "{line}");
     }

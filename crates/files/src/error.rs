@@ -42,7 +42,7 @@ struct Details {
 pub enum ErrorKind {
     /// The file does not exist.
     NotFound,
-    /// The path names a folder, a pipe or a device.
+    /// The path names a folder, which holds no bag where one is read, a pipe or a device.
     NotAFile,
     /// The system failed to read or to write; the source is its [`io::Error`].
     Io,
@@ -52,6 +52,8 @@ pub enum ErrorKind {
     Format,
     /// The file is of a format, or of a kind within a format, that is not read or cannot be written.
     Unsupported,
+    /// The file is of another kind than is wanted, by its name: [`FileKind::of`](crate::FileKind::of) tells which.
+    OtherKind,
     /// A value of the file or of an option lies outside its range.
     OutOfRange,
     /// The file has more cells than [`Options::max_cells`](crate::Options::max_cells) allows: a larger limit may admit it.

@@ -45,8 +45,9 @@
 //! | [`ros`] | ROS maps: a yaml file that describes an image |
 //! | [`npy`] | NumPy's arrays |
 //! | `npz` | archives of them |
-//! | `names` | the names of files, by which their kind is known |
+//! | `names` | names of files: their endings, and those of arrays within archives |
 //! | [`gridmap`] | MRPT's grid maps |
+//! | `kind` | [`FileKind`]: what a file is by the ending of its name |
 //! | `words` | words that a reader does not understand, counted |
 //! | [`octree`] | OctoMap's octrees, visited node by node |
 //! | [`trajectory`] | [`Trajectory`]: poses by their times; TUM text |
@@ -66,6 +67,7 @@ mod cells;
 mod error;
 pub mod gridmap;
 mod image;
+mod kind;
 mod map;
 mod names;
 pub mod npy;
@@ -86,6 +88,7 @@ mod words;
 
 pub use cells::{Cells, CellsVisitor, Contents, Counted, Counts, Readable};
 pub use error::{Error, ErrorKind, Place};
+pub use kind::FileKind;
 pub use map::Map;
 pub use names::{file_of, is_array, is_description};
 pub use options::{ARRAY_NUMBERS, ArrayEncoding, MAX_CELLS, MAX_COUNTED, Mode, Options, Semantics};

@@ -1,4 +1,4 @@
-//! The names of files, by which their kind is known.
+//! Names of files: their endings, and those of arrays within archives.
 
 use crate::npz;
 use std::path::Path;

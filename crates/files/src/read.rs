@@ -3,6 +3,7 @@
 use crate::bags::{self, MapTopic};
 use crate::cells::{Cells, CellsVisitor, Contents};
 use crate::error::{Error, ErrorKind, Place};
+use crate::kind::FileKind;
 use crate::map::Map;
 use crate::names::{file_of, has_ending, is_array, is_description};
 use crate::npy::{self, MapsVisitor};
@@ -169,7 +170,7 @@ fn read_as<T: Target>(
         return Err(Error::new(ErrorKind::Unsupported, "is an octree, which has no grid of cells"));
     } else {
         source.open(path)?;
-        if is(&IMAGES) {
+        if FileKind::of(path) == Some(FileKind::Image) {
             let message = "is only the image of a ROS map; give the yaml file that describes it";
             return Err(Error::new(ErrorKind::Unsupported, message).with_value(name));
         }
@@ -181,6 +182,9 @@ fn read_as<T: Target>(
             let message = "is a saved state of Cartographer, whose submaps are several grids, not one";
             return Err(Error::new(ErrorKind::Unsupported, message));
         }
+        if let Some(refused) = FileKind::refused(path, FileKind::Map) {
+            return Err(refused);
+        }
         let refused = Error::new(ErrorKind::Unsupported, "is no map file by its name");
         return Err(refused.with_value(name).allowing("; allowed are ", ENDINGS));
     };
@@ -191,12 +195,6 @@ fn read_as<T: Target>(
 /// The endings of map files, for messages.
 const ENDINGS: &str =
     ".yaml, .yml, .npy, .npz, .gridmap, .gridmap.gz, .ot, .bt, .mcap, .db3, .bag and .pbstream";
-
-/// The endings of images.
-const IMAGES: [&str; 14] = [
-    ".pgm", ".png", ".bmp", ".ppm", ".pbm", ".pnm", ".pam", ".jpg", ".jpeg", ".tif", ".tiff", ".gif",
-    ".webp", ".tga",
-];
 
 /// Reads the submaps of Cartographer's saved state at `path` on the disk: as [`read_submaps_from`].
 ///
@@ -334,6 +332,9 @@ fn scans(
             return Err(Error::new(ErrorKind::Unsupported, "is a bag, which is read from a disk only"));
         }
         if !is(&[".log", ".clf"]) {
+            if let Some(refused) = FileKind::refused(path, FileKind::Scans) {
+                return Err(refused);
+            }
             let refused = Error::new(ErrorKind::Unsupported, "is no log of scans by its name");
             let allowed =
                 "CARMEN logs, .log and .clf, bags, .mcap, .db3, .bag and their folders, and .pbstream";
@@ -385,5 +386,11 @@ pub fn read_trajectory(path: &Path) -> Result<(Trajectory, Vec<Warning>), Error>
 /// # Errors
 /// An [`Error`] naming the file: as [`tum::read`].
 pub fn read_trajectory_from(source: &impl Source, path: &Path) -> Result<(Trajectory, Vec<Warning>), Error> {
-    source.open(path).and_then(|file| tum::read(file.input)).map_err(|error| error.in_file(path))
+    let read = source.open(path).and_then(|file| tum::read(file.input));
+    // Any name may be that of a trajectory: only where it holds none, its name tells what it is.
+    let other = |error: Error| match error.kind() {
+        ErrorKind::Format => FileKind::refused(path, FileKind::Trajectory).unwrap_or(error),
+        _ => error,
+    };
+    read.map_err(|error| other(error).in_file(path))
 }

@@ -225,6 +225,15 @@ pub enum Warning {
         /// The greatest angle between the robot's z axis and the world's, in degrees.
         greatest_degrees: f64,
     },
+    /// Most poses of a text are tilted so far that its numbers seem to be in another order, or not to be a robot's.
+    MostTiltedFar {
+        /// The number of poses that are tilted by more than 45 degrees.
+        count: u64,
+        /// The number of all poses.
+        poses: u64,
+        /// True if most are not if the quaternion is read with w first.
+        w_first: bool,
+    },
     /// A bag ends within a record, or was not closed by who recorded it: only its whole messages are read.
     BagCutShort {
         /// The byte at which its last whole record ends.

@@ -2,7 +2,7 @@
 
 use crate::one_line::one_line;
 use mean_information::cell;
-use mean_information_files::{Error, ErrorKind, Place, Warning};
+use mean_information_files::{Error, ErrorKind, FileKind, Place, Warning};
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -40,6 +40,18 @@ fn may_be_unknown(error: &Error) -> bool {
         && matches!(error.value(), Some("NaN" | "-1"))
 }
 
+/// Says which command takes files of a kind.
+fn command_for(kind: FileKind) -> &'static str {
+    match kind {
+        FileKind::Map => "; `meaninfo map` measures maps, one or several",
+        FileKind::Image => "; `meaninfo map` measures the map, by the yaml file that describes its image",
+        FileKind::Scans => "; `meaninfo trajectory` takes scans, and trajectories after them",
+        FileKind::FilterLog => "; `meaninfo emmi --filter` takes it",
+        FileKind::Trajectory => "; `meaninfo trajectory` takes trajectories, after their scans",
+        _ => "",
+    }
+}
+
 impl From<Error> for Refused {
     /// Takes the error of a reader or a writer, with the option that may mend it.
     fn from(error: Error) -> Self {
@@ -57,6 +69,10 @@ impl From<Error> for Refused {
                 }
                 _ => error.message().to_owned(),
             },
+            ErrorKind::OtherKind => {
+                let command = error.file().and_then(FileKind::of).map_or("", command_for);
+                format!("{}{command}", error.message())
+            }
             ErrorKind::Options if error.place() == Some(&Place::Option("unknown")) => {
                 "--unknown needs --mode probability; give both or neither".to_owned()
             }

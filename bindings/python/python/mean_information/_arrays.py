@@ -53,7 +53,7 @@ def refusal(dtype: np.dtype[Any], encoding: str) -> str | None:
         }
         return None if dtype.kind in "iu" else f"encoding {encoding!r} takes integers, not {dtype}{hint.get(dtype.kind, '')}"
     if dtype.kind == "f":
-        words = f"encoding {encoding!r} takes float64, float32 and float16, not {dtype}: cells.astype(float)"
+        words = f"encoding {encoding!r} takes float64, float32 and float16, not {dtype}: cells.astype(np.float64) rounds the numbers first"
         return None if dtype.itemsize <= 8 else words
     if dtype.kind in "biu":
         return (
@@ -91,6 +91,16 @@ def mask_of(cells: npt.ArrayLike, where: npt.ArrayLike | None, shape: tuple[int,
         unmasked = ~np.ma.getmaskarray(cells)
         mask = unmasked if mask is None else mask & unmasked
     return None if mask is None else mask.view(np.uint8)
+
+
+def cells_of_map(where: npt.ArrayLike | None, shape: tuple[int, ...]) -> _Array | None:
+    """Return bytes that are not 0 where cells of a map of this shape are meant, in one block of memory."""
+    if where is None:
+        return None
+    if np.ndim(where) > len(shape):
+        raise ValueError(f"where has {np.ndim(where)} dimensions, allowed are those of a map: of all maps the same cells are meant")
+    mask = mask_of((), where, shape)
+    return None if mask is None else np.ascontiguousarray(mask)
 
 
 def axes_of(axis: int | Sequence[int] | None, ndim: int) -> list[int] | None:

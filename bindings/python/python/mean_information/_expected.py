@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native
-from ._arrays import Encoding, known, prepared
+from ._arrays import Encoding, cells_of_map, known, prepared
 from ._native import ExpectedMap
 
 
@@ -17,6 +17,7 @@ def expected_map(
     weights: npt.ArrayLike | None = None,
     *,
     encoding: Encoding = "probability",
+    where: npt.ArrayLike | None = None,
 ) -> ExpectedMap:
     """Compute the expected map of weighted maps, such as the particles of a filter, and its mean information, EMMI.
 
@@ -30,6 +31,9 @@ def expected_map(
         One weight for each map, not negative, in any scale; equal ones by default.
     encoding : {"probability", "percent", "log-odds", "mrpt"}
         What the numbers are, see `tally`.
+    where : array_like of bool, optional
+        The cells that are measured, of all maps alike; it is broadcast to (rows, columns). The others may hold anything, and
+        are NaN in the expected map.
 
     Returns
     -------
@@ -72,4 +76,5 @@ def expected_map(
     given = np.ones(len(maps)) if weights is None else np.asarray(weights, dtype=np.float64)
     if given.ndim != 1:
         raise ValueError(f"weights are a list of numbers, not an array of {given.ndim} dimensions")
-    return _native.expected_map(maps, given.tolist(), encoding)
+    mask = cells_of_map(where, maps[0].shape) if maps else None
+    return _native.expected_map(maps, given.tolist(), encoding, mask)

@@ -83,7 +83,9 @@ def mean_information(
     -------
     float or ndarray
         A float without `axis` and `keepdims`; else an array of float32 for cells of float32 and float16, of float64 for all
-        others, or a scalar of that type where no axis is left. 0 where no cell is observed.
+        others, or a scalar of that type where no axis is left. 0.0 where no cell is observed, by the report's convention, as
+        numbers add and average; the command prints none there, and null in JSON: `Tally.observed` and `Tally.meaningful`
+        tell such maps apart.
 
     Raises
     ------

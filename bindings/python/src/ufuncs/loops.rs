@@ -8,6 +8,7 @@ use num_traits::Zero;
 use num_traits::float::FloatCore;
 use numpy::npyffi::types::NPY_TYPES;
 use numpy::npyffi::{PY_UFUNC_API, PyUFuncGenericFunction, npy_intp};
+use numpy::{PyArrayDescr, PyArrayDescrMethods};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use std::ffi::{c_char, c_int, c_void};
@@ -194,16 +195,30 @@ unsafe extern "C" fn refuse<F: Elementwise>(
     _: *mut npy_intp,
     _: *mut c_void,
 ) {
-    // NumPy runs loops without the interpreter's lock, and looks for an exception after them.
-    Python::attach(|py| {
-        let name = F::NAME.to_string_lossy();
-        let text = format!(
-            "{name}() takes floats: what integers and booleans mean is not known. Percentages (ROS) are measured by \
-             tally(cells, encoding=\"percent\"), MRPT's bytes by tally(cells, encoding=\"mrpt\"); if the numbers are meant as \
-             they are, {name}(cells.astype(float))"
-        );
-        PyTypeError::new_err(text).restore(py);
-    });
+    let name = F::NAME.to_string_lossy();
+    raise(format!(
+        "{name}() takes floats: what integers and booleans mean is not known. Percentages (ROS) are measured by \
+         tally(cells, encoding=\"percent\"), MRPT's bytes by tally(cells, encoding=\"mrpt\"); if the numbers are meant as \
+         they are, {name}(cells.astype(float))"
+    ));
+}
+
+/// Refuses floats of more digits than results have.
+unsafe extern "C" fn refuse_long<F: Elementwise>(
+    _: *mut *mut c_char,
+    _: *mut npy_intp,
+    _: *mut npy_intp,
+    _: *mut c_void,
+) {
+    let name = F::NAME.to_string_lossy();
+    raise(format!(
+        "{name}() takes float64, float32 and float16, not longdouble: {name}(cells.astype(np.float64)) rounds the numbers first"
+    ));
+}
+
+/// Leaves a `TypeError` behind: NumPy runs loops without the interpreter's lock, and looks for an exception after them.
+fn raise(text: String) {
+    Python::attach(|py| PyTypeError::new_err(text).restore(py));
 }
 
 /// The types whose loops refuse; they stand first, as NumPy takes the first loop that a type can be cast to.
@@ -222,7 +237,8 @@ const REFUSED: [NPY_TYPES; 11] = [
 ];
 /// The loops that compute.
 const COMPUTED: [NPY_TYPES; 3] = [NPY_TYPES::NPY_HALF, NPY_TYPES::NPY_FLOAT, NPY_TYPES::NPY_DOUBLE];
-const LOOPS: usize = REFUSED.len() + COMPUTED.len();
+/// With that which refuses longdouble, the last: where it is as wide as a double, it is left out.
+const LOOPS: usize = REFUSED.len() + COMPUTED.len() + 1;
 
 /// Creates the ufunc and adds it to the module.
 pub(super) fn add_to<F: Elementwise>(module: &Bound<'_, PyModule>) -> PyResult<()> {
@@ -232,10 +248,13 @@ pub(super) fn add_to<F: Elementwise>(module: &Bound<'_, PyModule>) -> PyResult<(
     let computed: [PyUFuncGenericFunction; 3] =
         [Some(compute::<F, Half>), Some(compute::<F, f32>), Some(compute::<F, f64>)];
     let mut functions = [Some(refuse::<F> as unsafe extern "C" fn(_, _, _, _)); LOOPS];
-    functions[REFUSED.len()..].copy_from_slice(&computed);
+    functions[REFUSED.len()..LOOPS - 1].copy_from_slice(&computed);
+    functions[LOOPS - 1] = Some(refuse_long::<F>);
+    let is_longer = PyArrayDescr::new(py, "longdouble")?.itemsize() > size_of::<f64>();
     let refused = REFUSED.iter().map(|&from| [from, NPY_TYPES::NPY_DOUBLE]);
     let types: Vec<c_char> = refused
         .chain(COMPUTED.map(|float| [float, float]))
+        .chain([[NPY_TYPES::NPY_LONGDOUBLE, NPY_TYPES::NPY_DOUBLE]])
         .flatten()
         .map(|number| number as c_char)
         .collect();
@@ -253,7 +272,7 @@ pub(super) fn add_to<F: Elementwise>(module: &Bound<'_, PyModule>) -> PyResult<(
             functions,
             data,
             types,
-            LOOPS as c_int,
+            (LOOPS - usize::from(!is_longer)) as c_int,
             1,
             1,
             none,

@@ -27,10 +27,9 @@ const SAME: f64 = NEAR / 16.0;
 /// Returns the facts that failures show.
 pub(super) fn facts(cases: &[Case<'_>]) -> Vec<Candidate> {
     let mut candidates = Vec::new();
-    for (name, note, holds) in PLAIN_FACTS {
-        let is_of_kind = !NOT_OF_KIND.contains(name);
+    for &(name, is_of_kind, note, holds) in PLAIN_FACTS {
         candidates
-            .push(Candidate { is_of_kind, ..fact(name, (*note).to_owned(), PLAIN, indices(cases, holds)) });
+            .push(Candidate { is_of_kind, ..fact(name, note.to_owned(), PLAIN, indices(cases, holds)) });
     }
     candidates.extend(words(cases));
     let patterns = [
@@ -67,50 +66,55 @@ pub(super) fn fact(name: &str, note: String, weight: f64, explained: Vec<usize>)
     }
 }
 
-type PlainFact = (&'static str, &'static str, fn(Case<'_>) -> bool);
+type PlainFact = (&'static str, bool, &'static str, fn(Case<'_>) -> bool);
 
-/// Name, what is wrong, and how it is told.
+/// Name, whether it is another kind of answer than was due, what is wrong, and how it is told. The verdict shows troubles one
+/// by one.
 const PLAIN_FACTS: &[PlainFact] = &[
-    ("trouble", "crashes, hangs or breaks the protocol", |case| {
+    ("trouble", false, "crashes, hangs or breaks the protocol", |case| {
         matches!(case.failure, Some(TestFailure::Port(_)))
     }),
     (
         "not-of-format",
+        true,
         "answers numbers that the format asked for does not have: in double precision where single is asked for",
         |case| answered(case, |answer| matches!(answer, Answered::NotOfFormat(_))),
     ),
     (
         "unreadable",
+        true,
         "answers something else than a hexadecimal float in a string, or for a count a JSON integer",
         |case| answered(case, |answer| matches!(answer, Answered::Unreadable { .. })),
     ),
-    ("nan", "answers NaN where there is a number", |case| {
+    ("nan", true, "answers NaN where there is a number", |case| {
         numeric(case) && answered(case, |answer| matches!(answer, Answered::Float(x, _) if x.is_nan()))
     }),
-    ("infinite", "answers infinity where there is a finite number", |case| {
+    ("infinite", true, "answers infinity where there is a finite number", |case| {
         numeric(case) && answered(case, |answer| matches!(answer, Answered::Float(x, _) if x.is_infinite()))
     }),
-    ("nan-for-error", "answers NaN where the error \"domain\" is to be answered", |case| {
+    ("nan-for-error", true, "answers NaN where the error \"domain\" is to be answered", |case| {
         refused(case) && answered(case, |answer| matches!(answer, Answered::Float(x, _) if x.is_nan()))
     }),
-    ("accepts", "computes a number where arguments lie outside the domain: they are not checked", |case| {
-        let number = |answer: &Answered| match answer {
-            Answered::Float(x, _) => !x.is_nan(),
-            other => matches!(other, Answered::Count(_)),
-        };
-        refused(case) && answered(case, number)
-    }),
-    ("refuses", "answers the error \"domain\" to arguments that lie in the domain", |case| {
+    (
+        "accepts",
+        true,
+        "computes a number where arguments lie outside the domain: they are not checked",
+        |case| {
+            let number = |answer: &Answered| match answer {
+                Answered::Float(x, _) => !x.is_nan(),
+                other => matches!(other, Answered::Count(_)),
+            };
+            refused(case) && answered(case, number)
+        },
+    ),
+    ("refuses", true, "answers the error \"domain\" to arguments that lie in the domain", |case| {
         !refused(case)
             && answered(case, |answer| matches!(answer, Answered::Error(word) if word == errors::DOMAIN))
     }),
-    ("negative-zero", "answers -0 where +0 is the nearest float", |case| {
+    ("negative-zero", false, "answers -0 where +0 is the nearest float", |case| {
         answered(case, |answer| matches!(answer, Answered::Float(x, _) if *x == 0.0 && x.is_sign_negative()))
     }),
 ];
-
-/// The plain facts that are no other kind of answer than was due: the verdict shows troubles one by one.
-const NOT_OF_KIND: [&str; 2] = ["trouble", "negative-zero"];
 
 fn answered(case: Case<'_>, holds: impl Fn(&Answered) -> bool) -> bool {
     case.wrong_answer().is_some_and(|judged| holds(&judged.answer))

@@ -102,10 +102,10 @@ fn in_page(files: &BTreeMap<PathBuf, &PathBuf>) -> Result<Vec<Held>, Failure> {
 /// Puts files into the page.
 fn with_maps(page: &str, files: &[Held]) -> Result<String, Failure> {
     if page.is_empty() {
-        return Err(Failure::Usage(
-            "this meaninfo was built without the page; run bindings/web/build.sh, then build it with MEANINFO_PAGE naming the \
-             file that it wrote"
-                .to_owned(),
+        return Err(Failure::NotBuiltIn(
+            "this meaninfo was built without the page; in a checkout, bindings/web/build.sh writes it, target/web/meaninfo.html, \
+             which opens in a browser as it is, and MEANINFO_PAGE=$PWD/target/web/meaninfo.html cargo install --path crates/cli \
+             puts it into meaninfo",
         ));
     }
     // Names and base64: serialisation cannot fail. No name ends the element.
@@ -124,6 +124,7 @@ mod tests {
         let json = r#"[{"name":"a\u003c/script>.npy","base64":"AAECAw=="}]"#;
         assert_eq!(page, format!("before {} after {NO_MAPS}", NO_MAPS.replace("[]", json)));
         assert!(PAGE.is_empty() || PAGE.contains(NO_MAPS));
-        assert!(with_maps("", &[]).unwrap_err().to_string().contains("MEANINFO_PAGE"));
+        let without = with_maps("", &[]).unwrap_err().to_string();
+        assert!(without.contains("MEANINFO_PAGE=") && !without.contains("--help"), "{without}");
     }
 }

@@ -157,7 +157,7 @@ impl Row {
             ("agreement", Value::Computed(Some(Number::Double(self.agreement)))),
             ("difference", number(Difference::value)),
             ("standard_error", number(Difference::standard_error)),
-            ("partings", Value::Records(self.parting.iter().map(Parting::record).collect())),
+            ("partings", Value::Records(self.parting.as_ref().map(Parting::records).unwrap_or_default())),
             (
                 "contradictions",
                 Value::Records(self.contradictions.iter().map(Contradiction::record).collect()),

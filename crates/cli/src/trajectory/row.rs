@@ -41,7 +41,7 @@ pub struct Row {
     pub revisited: u64,
     /// The difference from the first row; `None` of the first, and where there is one scan alone.
     pub difference: Option<Difference>,
-    /// The part of the log where it parts from the best one, of a row that is not the best.
+    /// The parts of the log where it parts from the best one, of a row that is not the best.
     pub parting: Option<Parting>,
     /// The places where its scans contradict one another most, the worst first.
     pub contradictions: Vec<Contradiction>,

@@ -24,10 +24,10 @@ const ROS1: usize = 2;
 /// The ending of a file that rosbag2 compressed as a whole, behind the other.
 const PACKED: &str = ".zstd";
 
-/// Tells whether a path is that of a bag: by the ending of its name, `.mcap`, `.bag`, `.bag.active` or `.db3`, or a
-/// folder that holds such files.
+/// Tells whether a path is read as that of a bag: by the ending of its name, `.mcap`, `.bag`, `.bag.active` or `.db3`, or as
+/// a folder, which is to hold such files.
 pub fn is_bag(path: &Path) -> bool {
-    if path.is_dir() { found(path).is_ok_and(|files| !files.is_empty()) } else { kind(path).is_some() }
+    path.is_dir() || kind(path).is_some()
 }
 
 /// Returns the files that are read of the bag at `path`: itself, or of a folder the bags, and what says which they are.
@@ -99,8 +99,9 @@ fn numbered(mut files: Vec<PathBuf>) -> Result<Vec<PathBuf>, Error> {
         digits.strip_suffix('_').unwrap_or(stem).to_owned()
     };
     let Some(first) = files.first() else {
-        let refused = Error::new(ErrorKind::NotFound, "is a folder without a bag");
-        return Err(refused.allowing("; allowed are ", "folders with .db3 or .mcap files"));
+        let refused =
+            Error::new(ErrorKind::NotAFile, "is a folder that holds no bag, no .mcap, .db3 or .bag file");
+        return Err(refused.allowing("; allowed are ", "files, and folders of bags"));
     };
     let is_one = |path: &PathBuf| kind(path) == kind(first) && stem(path) == stem(first);
     if files.len() > 1 && (kind(first) == Some(ROS1) || !files.iter().all(is_one)) {

@@ -50,8 +50,14 @@ pub(super) fn read_file(
             Ok(true) => {}
             Ok(false) if container.is_whole(start) => return Ok(Vec::new()),
             Ok(false) => return Ok(vec![cut(start, delivery)]),
-            // A visitor's refusal stands; anything else of a record that the file does not hold is the file's end.
-            Err(error) if matches!(error.place(), Some(Place::Message { .. })) => return Err(error),
+            // A visitor's refusal stands; anything else of a record that the file does not hold, such as a length beyond the
+            // limit, is the file's end.
+            Err(error)
+                if matches!(error.place(), Some(Place::Message { .. }))
+                    && !(input.is_cut && error.kind() == ErrorKind::TooLarge) =>
+            {
+                return Err(error);
+            }
             Err(_) if input.is_cut => return Ok(vec![cut(start, delivery)]),
             Err(error) => {
                 return Err(error.preceded_by(&format!("record at byte {start}: ")).at(Place::Byte(start)));

@@ -6,7 +6,7 @@
 use super::layout::{Channels, Layout, Rest};
 use crate::error::{Error, ErrorKind, Place};
 use crate::size::{Size, at_end, read_pieces};
-use std::io::BufRead;
+use std::io::{self, BufRead, Seek, SeekFrom};
 
 /// Samples of a plain image that are handed on together.
 const PLAIN_PIECE: usize = 4096;
@@ -22,12 +22,24 @@ pub(crate) struct Pgm<R> {
 
 impl<R: BufRead> Pgm<R> {
     /// Reads the header.
-    pub(super) fn open(mut input: R, max_cells: u64) -> Result<Self, Error> {
+    pub(super) fn open(mut input: R, max_cells: u64) -> Result<Self, Error>
+    where
+        R: Seek,
+    {
         let mut magic = [0; 2];
         input.read_exact(&mut magic)?;
         let width = header_number(&mut input, "width", u32::MAX)?;
         let height = header_number(&mut input, "height", u32::MAX)?;
-        let size = Size::within(width.into(), height.into(), max_cells)?;
+        let size = match Size::within(width.into(), height.into(), max_cells) {
+            // A limit is no matter of a file that was cut short.
+            Err(error)
+                if error.kind() == ErrorKind::TooLarge
+                    && bytes_left(&mut input)? < u64::from(width) * u64::from(height) =>
+            {
+                return Err(io::Error::from(io::ErrorKind::UnexpectedEof).into());
+            }
+            size => size?,
+        };
         let (max, end) = header_number_and_end(&mut input, "maximum value", 65535)?;
         let max = max as u16;
         let plain = magic == *b"P2";
@@ -111,6 +123,14 @@ impl Layout {
             .at(Place::Pixel { row, column })
             .allowing(" ", format!("the maximum value {} of the header", self.max))
     }
+}
+
+/// Returns the number of bytes that are left.
+fn bytes_left(input: &mut (impl BufRead + Seek)) -> io::Result<u64> {
+    let at = input.stream_position()?;
+    let end = input.seek(SeekFrom::End(0))?;
+    input.seek(SeekFrom::Start(at))?;
+    Ok(end.saturating_sub(at))
 }
 
 /// Reads a number of the header from 1 to `most`, and the one white space after it.

@@ -185,8 +185,9 @@ impl Header {
     }
 
     /// Refuses a file that is not exactly as long as an array of `elements` elements.
-    pub(super) fn check_length(&self, length: u64, elements: u64) -> Result<(), Error> {
-        let claimed = u128::from(self.length) + u128::from(elements) * self.element.bytes() as u128;
+    pub(super) fn check_length(&self, length: u64, elements: u128) -> Result<(), Error> {
+        let bytes = elements.saturating_mul(self.element.bytes() as u128);
+        let claimed = bytes.saturating_add(self.length.into());
         if claimed == u128::from(length) {
             return Ok(());
         }

@@ -67,8 +67,9 @@ pub fn read_contents(
 ) -> Result<Map<Contents>, Error> {
     let header = Header::read(&mut input, header::MAPS)?;
     let [rows, columns] = header.dimensions("rows and columns")?;
+    // Before the limit, which is no matter of a file that was cut short.
+    header.check_length(length, u128::from(columns) * u128::from(rows))?;
     let size = Size::within(columns, rows, max_cells)?;
-    header.check_length(length, size.cells() as u64)?;
     size.placed(options.resolution.unwrap_or(1.0), [0.0, 0.0], 0.0)?;
     let order = Order { size, count: 1, by_columns: header.fortran_order };
     let stream = Stream { values: Values { input, header: &header }, order, visitor };

@@ -65,11 +65,15 @@ pub(super) fn visit_maps<V: MapsVisitor>(
     options: &Options,
     visitor: V,
 ) -> Result<V::Output, Error> {
+    // Before the limit, which is no matter of a file that was cut short.
+    header.check_length(
+        length,
+        [rows, columns].iter().fold(count.into(), |all: u128, &side| all.saturating_mul(side.into())),
+    )?;
     let all = Size::claimed(columns, rows.saturating_mul(count), options.max_kept(), || match count {
         1 => format!("{columns} x {rows} = {} cells,", u128::from(columns) * u128::from(rows)),
         _ => format!("{count} particles of {columns} x {rows} cells, together"),
     })?;
-    header.check_length(length, all.cells() as u64)?;
     // A factor of sizes that fit.
     let size = Size { width: all.width, height: all.height / (count.max(1) as usize) };
     let geometry = size.placed(options.resolution.unwrap_or(1.0), [0.0, 0.0], 0.0)?;

@@ -18,8 +18,8 @@ const MOST_INTEGER: u128 = 1 << f64::MANTISSA_DIGITS;
 pub fn read_weights(mut input: impl Read, length: u64, options: &Options) -> Result<Vec<f64>, Error> {
     let header = Header::read(&mut input, header::WEIGHTS)?;
     let [count] = header.dimensions("the weights")?;
+    header.check_length(length, count.into())?;
     let size = Size::claimed(count, 1, options.max_kept(), || format!("{count} weights,"))?;
-    header.check_length(length, count)?;
     let count = size.cells();
     let mut values = Values { input, header: &header };
     match header.element {

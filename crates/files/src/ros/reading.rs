@@ -33,7 +33,8 @@ pub(crate) fn read<K: Sink>(
         opened => opened,
     };
     let read = opened.and_then(|file| read_image_as(file.input, &description, options));
-    let mut map = read.map_err(|error| error.in_file(&image))?;
+    let named = || format!(" (the image that {} names)", path.display());
+    let mut map = read.map_err(|error| error.followed_by(&named()).in_file(&image))?;
     map.files.push(image);
     Ok(map)
 }

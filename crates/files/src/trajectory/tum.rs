@@ -15,7 +15,8 @@ const FIELDS: [&str; 8] = ["time", "x", "y", "z", "qx", "qy", "qz", "qw"];
 /// Reads a trajectory. Empty lines and lines that begin with `#` are passed over; fields are parted by any white space;
 /// quaternions whose length is within 0.02 of 1 are normalised.
 ///
-/// Pitch, roll and z are dropped: poses tilted by more than a degree are counted in [`Warning::TiltDropped`]. A last line
+/// Pitch, roll and z are dropped: poses tilted by more than a degree are counted in [`Warning::TiltDropped`], and where most
+/// are tilted far, as with quaternions that have w first, [`Warning::MostTiltedFar`] says so. A last line
 /// without an end that has no eight fields, or others than can be meant, is dropped with [`Warning::CutInLine`].
 ///
 /// ```
@@ -65,6 +66,7 @@ pub fn read(input: impl BufRead) -> Result<(Trajectory, Vec<Warning>), Error> {
         let refused = Error::new(ErrorKind::Format, "holds no pose");
         return Err(refused.allowing("; allowed are ", "lines of `time x y z qx qy qz qw`"));
     }
+    warnings.extend(tilts.warning_of_order());
     warnings.extend(tilts.warning());
     Ok((Trajectory::new(times, poses)?, warnings))
 }

@@ -200,6 +200,14 @@ impl fmt::Display for Warning {
                 "{count} poses are pitched or rolled by more than 1 degree, up to {greatest_degrees:.1}: dropped, as \
                  scans lie in the plane"
             ),
+            Self::MostTiltedFar { count, poses, w_first } => {
+                write!(f, "{count} of {poses} poses are tilted by more than 45 degrees")?;
+                f.write_str(if w_first {
+                    ", but not if w comes first: the quaternions seem to be qw qx qy qz, where TUM text has qx qy qz qw, w last"
+                } else {
+                    ": z does not point up in them, as in the frame of a camera; give the poses of the robot or of the laser"
+                })
+            }
             Self::BagCutShort { byte, messages } => {
                 write!(
                     f,

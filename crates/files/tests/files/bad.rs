@@ -1,7 +1,10 @@
 //! ROS maps and file names that must be refused, with the file, what is wrong and what is allowed.
 
 use crate::support::{Nobody, read_twice, refusal, refusal_of};
-use mean_information_files::{Mode, Options, Semantics, read_map, read_map_contents};
+use mean_information_files::scans::ScanOptions;
+use mean_information_files::{
+    ErrorKind, Mode, Options, Semantics, read_map, read_map_contents, read_scans, read_trajectory,
+};
 use mean_information_test_support::formats::{Folder, pgm, raw_png, yaml, zlib};
 use std::fs;
 
@@ -11,6 +14,8 @@ fn refused_image(name: &str, image: &[u8]) -> String {
     let map = folder.write("map.yaml", yaml(name, "negate: 0\n"));
     let refused = refusal_of(&map, &Options::default());
     assert!(refused.contains(name), "the image is named: {refused}");
+    let named = format!("(the image that {} names)", map.display());
+    assert!(refused.ends_with(&named), "and what names it: {refused}");
     refused
 }
 
@@ -22,8 +27,34 @@ fn names_that_are_no_map() {
         assert!(refusal_of(&folder.path(name), &options).contains("cannot be read"), "{name}");
         fs::create_dir(folder.path(name)).unwrap();
         let refused = refusal_of(&folder.path(name), &options);
-        assert!(refused.contains("is a directory; allowed are files"), "{refused}");
+        let words = "is a folder that holds no bag, no .mcap, .db3 or .bag file; allowed are files, and folders of bags";
+        assert!(refused.contains(words), "{refused}");
     }
+    // What another command takes is named for what it is.
+    for (name, words) in [
+        ("run.log", "run.log: is a log of scans by its name, and a map is wanted here"),
+        ("run.gfs", "run.gfs: is the log of a particle filter by its name, and a map is wanted here"),
+        ("run.TUM", "run.TUM: is a trajectory by its name, and a map is wanted here"),
+    ] {
+        let path = folder.write(name, "text");
+        assert!(refusal_of(&path, &options).ends_with(words));
+        assert_eq!(read_map(&path, &options).unwrap_err().kind(), ErrorKind::OtherKind);
+    }
+    for (name, words) in [
+        ("a.yaml", "a.yaml: is a map by its name, and a log of scans is wanted here"),
+        ("a.npz:key", "a.npz:key: is a map by its name, and a log of scans is wanted here"),
+        ("a.PGM", "a.PGM: is the image of a map by its name, and a log of scans is wanted here"),
+        ("a.tum", "a.tum: is a trajectory by its name, and a log of scans is wanted here"),
+    ] {
+        let refused = read_scans(&folder.write(name, "text"), &ScanOptions::default()).unwrap_err();
+        assert_eq!(refused.kind(), ErrorKind::OtherKind);
+        assert!(refused.to_string().ends_with(words), "{refused}");
+    }
+    // Any name may be that of a trajectory, if it holds one.
+    let refused = read_trajectory(&folder.write("b.yaml", "image: b.pgm\n")).unwrap_err();
+    assert_eq!(refused.kind(), ErrorKind::OtherKind);
+    assert!(refused.to_string().ends_with("b.yaml: is a map by its name, and a trajectory is wanted here"));
+    read_trajectory(&folder.write("c.yaml", "1.5 2 3 0 0 0 0 1\n")).unwrap();
     assert!(refusal("map.txt", "text", &options).contains("allowed are .yaml, .yml, .npy, .npz, .gridmap"));
     assert!(refusal("map", "text", &options).contains("allowed are .yaml"));
     assert!(refusal("map.pgm", "P5 1 1 255 x", &options).contains("give the yaml file"));
@@ -205,15 +236,16 @@ fn counted_pixels_have_a_limit_of_their_own() {
         (
             "above.pgm",
             b"P5 16385 16384 255\n1234".to_vec(),
-            "claims 16385 x 16384 = 268451840 cells, more than the limit of 268435456",
+            // No limit is a matter of what the file does not hold.
+            "cut short",
             "cut short",
         ),
         ("equal.pgm", b"P5 16384 16384 255\n1234".to_vec(), "cut short", "cut short"),
-        ("huge.pgm", b"P2 2147483648 2147483648 255\n1 2".to_vec(), "limit of 268435456", "holds 2 pixels"),
+        ("huge.pgm", b"P2 2147483648 2147483648 255\n1 2".to_vec(), "cut short", "holds 2 pixels"),
         (
             "endless.pgm",
             b"P5 4294967295 4294967295 255\n1".to_vec(),
-            "limit of 268435456",
+            "cut short",
             "cells, more than the limit of 9223372036854775807",
         ),
         ("above.png", raw_png(16385, 16384, 8, 0, 0, &[idat()]), "limit of 268435456", "malformed PNG"),
@@ -237,6 +269,8 @@ fn counted_pixels_have_a_limit_of_their_own() {
     let map = folder.write("map.yaml", yaml("above.pgm", "negate: 0\n"));
     let options = Options { max_cells: Some(1 << 29), ..Options::default() };
     assert!(refusal_of(&map, &options).contains("cut short"));
+    let above = fs::File::options().write(true).open(folder.path("above.pgm")).unwrap();
+    above.set_len(1 << 29).unwrap();
     let options = Options { max_cells: Some(1 << 28), ..Options::default() };
     assert!(refusal_of(&map, &options).contains("limit of 268435456"));
 }

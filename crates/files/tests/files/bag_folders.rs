@@ -95,8 +95,13 @@ fn files_of_one_bag_are_numbered() {
         assert!(error.to_string().contains(&words), "{error}");
         assert!(error.to_string().ends_with("; allowed is the name of one"), "{error}");
     }
-    let empty = Folder::new().write("x.txt", b"").parent().unwrap().to_owned();
-    assert!(!is_bag(&empty));
+    let folder = Folder::new();
+    let empty = folder.write("x.txt", b"").parent().unwrap().to_owned();
+    let error = times(&empty).unwrap_err();
+    assert_eq!((is_bag(&empty), error.kind(), error.file()), (true, ErrorKind::NotAFile, Some(&*empty)));
+    let words =
+        "is a folder that holds no bag, no .mcap, .db3 or .bag file; allowed are files, and folders of bags";
+    assert_eq!(error.message(), words);
 }
 
 #[test]

@@ -174,13 +174,20 @@ fn serialisations_that_are_none() {
 
 #[test]
 fn messages_longer_than_a_map_are_refused_before_they_are_read() {
-    let mut bytes = mcap("cdr", &[]);
-    bytes.truncate(bytes.len() - 13);
-    let claim = 22 + (1 << 40_u64);
-    bytes.extend([&[5][..], &u64::to_le_bytes(claim), &7_u16.to_le_bytes(), &[0; 20], b"some"].concat());
+    let mut whole = mcap("cdr", &[]);
+    whole.truncate(whole.len() - 13);
+    let claiming = |length: u64| {
+        [&whole[..], &[5], &u64::to_le_bytes(22 + length), &7_u16.to_le_bytes(), &[0; 20], b"some"].concat()
+    };
+    let mut bytes = claiming(1 << 21);
+    bytes.resize(bytes.len() + (1 << 21), 0);
     let (error, line) = refused(&bytes);
     assert_eq!(error.kind(), ErrorKind::TooLarge);
-    assert_eq!(line, "message 1 of /map: claims 1099511627776 bytes, more than the limit of 1049576");
+    assert_eq!(line, "message 1 of /map: claims 2097152 bytes, more than the limit of 1049576");
+    // What the file does not hold is no matter of a limit: it is cut short there.
+    let (read, warnings) = maps(&claiming(1 << 40), &Options { max_cells: Some(1000), ..Options::default() });
+    assert!(read.is_empty());
+    let [Warning::BagCutShort { messages: 0, .. }] = warnings.unwrap()[..] else { panic!("not cut short") };
 }
 
 #[test]

@@ -185,7 +185,7 @@ fn too_large_and_out_of_memory_are_two_kinds() {
     assert_eq!(parts(&refused), (ErrorKind::TooLarge, None, None, Some("6"), Some("the limit of 5")));
     assert_eq!(refused.to_string(), "claims 3 x 2 = 6 cells, more than the limit of 5");
     let options = Options { max_cells: Some(u64::MAX), ..Options::default() };
-    let refused = refused_array("(4294967296, 4294967296)", &[], &options);
+    let refused = refused_image(b"P5 4294967295 4294967295 255\n", &options);
     assert_eq!(refused.kind(), ErrorKind::OutOfMemory);
     let lacking = Vec::<u64>::new().try_reserve(usize::MAX).unwrap_err();
     let refused = Error::from(lacking);
@@ -207,7 +207,8 @@ fn the_first_file_that_is_named_stays() {
     let refused = refused_image(b"", &Options::default()).in_file(Path::new("other"));
     assert_eq!(
         refused.to_string(),
-        "image: the file is empty; allowed are PGM, PNG, BMP, PPM, PBM, JPEG, TIFF, GIF, WebP and TGA images"
+        "image: the file is empty; allowed are PGM, PNG, BMP, PPM, PBM, JPEG, TIFF, GIF, WebP and TGA images (the \
+         image that map.yaml names)"
     );
     assert!(refused.message().starts_with("the file is empty; allowed are PGM"));
     let named = Error::from(io::Error::from(io::ErrorKind::UnexpectedEof)).in_file(Path::new("two\nlines"));

@@ -5,6 +5,7 @@ use mean_information_files::{
     ArrayEncoding, Contents, ErrorKind, Options, Warning, read_map_contents, read_weights,
 };
 use mean_information_test_support::formats::{Folder, npy};
+use std::fs;
 use std::io::{Cursor, Write};
 use std::path::Path;
 use zip::CompressionMethod;
@@ -243,17 +244,20 @@ fn archives_are_read_as_numpy_reads_them() {
     );
 }
 
-/// 400 million cells would be above the limit on those that are kept; the file only claims them.
+/// 400 million cells are above the limit on those that are kept; which is no matter of a file that only claims them.
 #[test]
 fn cells_that_are_only_counted_have_no_limit() {
     let folder = Folder::new();
     let path = folder.write("map.npy", npy("'|i1'", false, "(20000, 20000)", &[0; 8]));
-    let refused = mean_information_files::read_map(&path, &Options::default()).unwrap_err().to_string();
-    assert!(refused.contains("more than the limit of 268435456"), "{refused}");
-    let counted = |options| read_map_contents(&path, &options, &mut Nobody);
-    assert!(counted(Options::default()).unwrap_err().to_string().contains("its header claims 400000128"));
-    let options = Options { max_cells: Some(1 << 20), ..Options::default() };
-    assert!(counted(options).unwrap_err().to_string().contains("more than the limit of 1048576"));
+    let few = || Options { max_cells: Some(1 << 20), ..Options::default() };
+    let kept = || mean_information_files::read_map(&path, &Options::default()).unwrap_err().to_string();
+    let counted = |options| read_map_contents(&path, &options, &mut Nobody).unwrap_err().to_string();
+    for refused in [kept(), counted(Options::default()), counted(few())] {
+        assert!(refused.contains("its header claims 400000128: it is cut short"), "{refused}");
+    }
+    fs::File::options().write(true).open(&path).unwrap().set_len(400_000_128).unwrap();
+    assert!(kept().contains("more than the limit of 268435456"), "{}", kept());
+    assert!(counted(few()).contains("more than the limit of 1048576"));
     let path = folder.write("map.npy", npy("'|i1'", false, "(2, 2)", &[0, 100, 50, 255]));
     let contents = read_map_contents(&path, &Options::default(), &mut Nobody).unwrap().cells;
     assert!(matches!(contents, Contents::Counted(_)), "{contents:?}");

@@ -50,6 +50,36 @@ fn a_quaternion_becomes_its_yaw() {
     assert!(warnings[0].to_string().contains("up to 2.0"), "{}", warnings[0]);
 }
 
+/// A robot that turns round and round, and a camera that looks along its heading.
+#[test]
+fn the_order_of_quaternions_is_asked_for() {
+    let text = |quaternion: fn([f64; 2]) -> [f64; 4]| {
+        let line = |k: i32| {
+            let yaw = 0.11 * f64::from(k);
+            let [a, b, c, d] = quaternion([libm::sin(yaw / 2.0), libm::cos(yaw / 2.0)]);
+            format!("{k} 1 2 3 {a} {b} {c} {d}\n")
+        };
+        (0..200).map(line).collect::<String>()
+    };
+    let asked = |quaternion| {
+        let (_, warnings) = read(&text(quaternion)).unwrap();
+        warnings.into_iter().find(|warning| matches!(warning, Warning::MostTiltedFar { .. }))
+    };
+    let found = asked(|[sin, cos]| [cos, 0.0, 0.0, sin]).unwrap();
+    let Warning::MostTiltedFar { count, poses: 200, w_first: true } = found else { panic!("{found:?}") };
+    // Three quarters of all headings.
+    assert!((140..160).contains(&count), "{count}");
+    let words = "poses are tilted by more than 45 degrees, but not if w comes first: the quaternions seem to be qw qx qy qz";
+    assert!(found.to_string().contains(words), "{found}");
+    // z along the heading, x to the right.
+    let camera = asked(|[s, c]| [-(c + s) / 2.0, (c - s) / 2.0, (s - c) / 2.0, (c + s) / 2.0]).unwrap();
+    assert!(matches!(camera, Warning::MostTiltedFar { count: 200, w_first: false, .. }), "{camera:?}");
+    assert!(camera.to_string().contains("as in the frame of a camera"), "{camera}");
+    // The right order, and a pitch of 20 degrees.
+    assert_eq!(asked(|[sin, cos]| [0.0, 0.0, sin, cos]), None);
+    assert_eq!(asked(|[s, c]| [-0.17365 * s, 0.17365 * c, 0.98481 * s, 0.98481 * c]), None);
+}
+
 #[test]
 fn what_is_no_trajectory_is_refused_by_its_line() {
     let good = "1.5 2 3 0 0 0 0 1\n";

@@ -11,8 +11,8 @@ use std::f64::consts::LN_2;
 /// The number of answers that `e` is fitted to, and the most cells of a map among them.
 const SAMPLE: usize = 24;
 const SHORT_MAP: usize = 16;
-/// The range of `e`: what is smaller is lost in the rounding of the logarithms.
-const RANGE: [f64; 2] = [1e-15, 0.4];
+/// The greatest `e`.
+const GREATEST: f64 = 0.4;
 const BISECTIONS: usize = 60;
 /// The relative distance within which `e` is taken for a decimal of one digit.
 const ROUND: f64 = 1e-3;
@@ -49,6 +49,11 @@ impl Mistake {
         };
         let term = |q: f64, added: f64| if q > 0.0 { -q * libm::log2(q + added) } else { 0.0 };
         term(p, occupied) + term(1.0 - p, free)
+    }
+
+    /// Returns the least `e`: what is smaller is lost in the rounding of the logarithms.
+    fn least(self) -> f64 {
+        if matches!(self, Self::Clamped) { 1e-17 } else { 1e-15 }
     }
 
     fn name(self) -> &'static str {
@@ -96,17 +101,39 @@ pub(super) fn mistakes(op: &str, cases: &[Case<'_>]) -> Vec<Candidate> {
                 let value = measure.value(&answer.asked, |p| unit * mistake.entropy(p, e));
                 (value, width(answer, value))
             };
-            if let Some(e) = fit(&answers, model) {
+            if let Some(e) = fit(&answers, mistake.least(), model) {
                 let note = mistake.note(e, unit);
                 found.extend(cause(mistake.name(), note, &answers, |answer| model(answer, e)));
             }
         }
     }
+    found.extend(machine_epsilon(measure, &answers));
     found
 }
 
+/// Returns the spacing of doubles at 1, added within the logarithms, as a cause of wrong entropies. It is no more than the
+/// rounding of most of them: it shows where both terms are as small, by the floats that come out, so nothing is fitted.
+fn machine_epsilon(measure: Measure, answers: &[Answer<Vec<f64>>]) -> Option<Candidate> {
+    let term = |q: f64| -q * libm::log2(q + f64::EPSILON);
+    let model = |answer: &Answer<Vec<f64>>| {
+        let terms = || answer.asked.iter().flat_map(|&p| [term(p), term(1.0 - p)]);
+        let (value, size): (f64, f64) = (terms().sum(), terms().map(f64::abs).sum());
+        let rounded =
+            if answer.format == FloatFormat::F32 { f64::from(f32::EPSILON) * value.abs() } else { 0.0 };
+        (value, rounded + 4.0 * f64::EPSILON * answer.asked.len() as f64 * size)
+    };
+    let note = Mistake::Added.note(f64::EPSILON, 1.0);
+    let note = format!("{note}; this number is DBL_EPSILON, Number.EPSILON, finfo(float).eps");
+    let is_entropy = matches!(measure, Measure::Entropy);
+    is_entropy.then(|| cause(Mistake::Added.name(), note, answers, model)).flatten()
+}
+
 /// Returns the `e` that fits most of the wrong answers that are furthest off.
-fn fit(answers: &[Answer<Vec<f64>>], model: impl Fn(&Answer<Vec<f64>>, f64) -> (f64, f64)) -> Option<f64> {
+fn fit(
+    answers: &[Answer<Vec<f64>>],
+    least: f64,
+    model: impl Fn(&Answer<Vec<f64>>, f64) -> (f64, f64),
+) -> Option<f64> {
     let mut sample: Vec<_> =
         answers.iter().filter(|a| !a.number.right && (1..=SHORT_MAP).contains(&a.asked.len())).collect();
     sample.sort_by(|a, b| b.number.error.absolute.total_cmp(&a.number.error.absolute));
@@ -120,21 +147,23 @@ fn fit(answers: &[Answer<Vec<f64>>], model: impl Fn(&Answer<Vec<f64>>, f64) -> (
         };
         sample.iter().filter(follows).count()
     };
-    let solutions = sample.iter().filter_map(|answer| solution(answer.number.value, |e| model(answer, e).0));
+    let solutions = sample
+        .iter()
+        .filter_map(|answer| solution(answer.number.value, [least, GREATEST], |e| model(answer, e).0));
     let (fits, e) = solutions.map(|e| (fitting(e), e)).max_by_key(|(fits, _)| *fits)?;
     let round: f64 = format!("{e:.0e}").parse().ok()?;
     let e = if (round - e).abs() <= ROUND * e && fitting(round) >= fits { round } else { e };
     (fits >= LEAST).then_some(e)
 }
 
-/// Returns the `e` at which a monotone function has a value, by bisection of its logarithm.
-fn solution(value: f64, function: impl Fn(f64) -> f64) -> Option<f64> {
-    let [low, high] = RANGE.map(&function);
+/// Returns the `e` of a range at which a monotone function has a value, by bisection of its logarithm.
+fn solution(value: f64, range: [f64; 2], function: impl Fn(f64) -> f64) -> Option<f64> {
+    let [low, high] = range.map(&function);
     let rises = low < high;
     if low == high || !(low.min(high)..=low.max(high)).contains(&value) {
         return None;
     }
-    let [mut low, mut high] = RANGE.map(libm::log);
+    let [mut low, mut high] = range.map(libm::log);
     for _ in 0..BISECTIONS {
         let middle = f64::midpoint(low, high);
         if (function(libm::exp(middle)) < value) == rises {
@@ -164,9 +193,10 @@ mod tests {
         ] {
             for measure in [Measure::Entropy, Measure::Information, Measure::MeanInformation] {
                 let value = |e| measure.value(cells, |p| LN_2 * mistake.entropy(p, e));
-                let e = solution(value(3e-7), value).unwrap();
+                let range = [mistake.least(), GREATEST];
+                let e = solution(value(3e-7), range, value).unwrap();
                 assert!((e / 3e-7 - 1.0).abs() < 1e-6, "{cells:?}: {e}");
-                assert_eq!(solution(value(0.41), value), None);
+                assert_eq!(solution(value(0.41), range, value), None);
             }
         }
     }

@@ -72,7 +72,7 @@ fn the_order_of_quaternions_is_asked_for() {
     let words = "poses are tilted by more than 45 degrees, but not if w comes first: the quaternions seem to be qw qx qy qz";
     assert!(found.to_string().contains(words), "{found}");
     // z along the heading, x to the right.
-    let camera = asked(|[s, c]| [-(c + s) / 2.0, (c - s) / 2.0, (s - c) / 2.0, (c + s) / 2.0]).unwrap();
+    let camera = asked(|[s, c]| [-0.5 * (c + s), 0.5 * (c - s), 0.5 * (s - c), 0.5 * (c + s)]).unwrap();
     assert!(matches!(camera, Warning::MostTiltedFar { count: 200, w_first: false, .. }), "{camera:?}");
     assert!(camera.to_string().contains("as in the frame of a camera"), "{camera}");
     // The right order, and a pitch of 20 degrees.

@@ -34,7 +34,7 @@ pub enum Failure {
     },
     /// A picture cannot be drawn.
     Drawing(String),
-    /// What is asked for is not within this program, as it was built.
+    /// The program was built without what is asked for.
     NotBuiltIn(&'static str),
     /// Several inputs are refused, each for its own reason.
     Several(Vec<Failure>),

@@ -163,6 +163,8 @@ export class HeatMap {
   }
 
   #paint() {
+    // Where all is shown there is nothing to move: a finger scrolls the page.
+    this.#canvas.classList.toggle("whole", this.#isFitted);
     const context = this.#canvas.getContext("2d");
     context.clearRect(0, 0, this.#canvas.width, this.#canvas.height);
     if (this.#picture) {

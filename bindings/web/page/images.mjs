@@ -73,7 +73,8 @@ export class Images {
         this.#readable.add(name);
       } catch ({ message }) {
         this.#readable.delete(name);
-        refuse(message);
+        // Nobody gave the description that was tried.
+        refuse(message.replace(` (the image that ${tried.name} names)`, ""));
       } finally {
         await list([]);
       }

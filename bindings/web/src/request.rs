@@ -73,6 +73,8 @@ pub(crate) struct Choices {
     #[serde(deserialize_with = "number")]
     resolution: Option<f64>,
     submaps: bool,
+    /// The image that was described on the page, whose name its row has: there is no file of the description.
+    pub(crate) image: Option<String>,
 }
 
 impl Choices {

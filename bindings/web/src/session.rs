@@ -117,7 +117,11 @@ impl Session {
     /// Returns the rows of a map.
     fn measured(&self, name: &str, reading: &Choices) -> Result<Vec<MeasuredMap>, String> {
         let rows = MeasuredMap::read_from(&self.files, Path::new(name), &reading.reading());
-        rows.map_err(|refused| of_file(&refused))
+        let mut rows = rows.map_err(|refused| of_file(&refused))?;
+        if let (Some(image), [row]) = (&reading.image, &mut rows[..]) {
+            row.name.clone_from(image);
+        }
+        Ok(rows)
     }
 
     fn open(&mut self, name: String, reading: &Choices) -> Result<String, String> {

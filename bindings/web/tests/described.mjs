@@ -16,6 +16,7 @@ await test("an image that is described in the form is neither accused nor called
   await idle(tab);
   assert.deepEqual(await texts(tab, "#notices"), []);
   assert.doesNotMatch(await tab.textContent("#facts"), /earlier/);
+  assert.equal(JSON.parse(await saved(tab, "#save-json"))[0].map, "floor.pgm");
   // A number of 1 is one bit, and its reason stands beside it.
   assert.equal(await tab.textContent("#unit"), "bit per observed cell");
   assert.match(await tab.textContent("#meaningless"), /^Not meaningful: thresholded: every observed cell has p = 0 or 1/);
@@ -76,7 +77,7 @@ await test("a picture that cannot be read is refused, and opens no form", async 
   await drop(tab, [pgm("bad.pgm", [0], 3)]);
   await tab.locator("#errors p").waitFor();
   made("bad.yaml", YAML("bad.pgm"));
-  assert.deepEqual(await texts(tab, "#errors"), [measured("bad.yaml")]);
+  assert.deepEqual(await texts(tab, "#errors"), [measured("bad.yaml").replace(" (the image that bad.yaml names)", "")]);
   assert.equal(await tab.locator("#describe").isVisible(), false);
   await tab.locator("#notices p").waitFor();
   assert.deepEqual(await texts(tab, "#notices"), ["What is shown below is still good.npy, chosen earlier."]);
@@ -92,7 +93,7 @@ await test("a picture that cannot be read is refused, and opens no form", async 
   await tab.evaluate(() => scrollTo(0, 0));
   await drag(tab, [join(work, "folder")]);
   await tab.locator("#errors p").waitFor();
-  assert.deepEqual(await texts(tab, "#errors"), [measured("folder")]);
+  assert.deepEqual(await texts(tab, "#errors"), ["folder: is a directory; allowed are files"]);
   await tab.waitForFunction(() => document.getElementById("notices").textContent === "What is shown below is still good.npy, chosen earlier.");
 });
 

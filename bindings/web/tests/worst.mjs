@@ -159,3 +159,13 @@ await test("where two fingers part no cell is marked", async (tab) => {
   await touch([["pointerdown", 3, 0.4, 0.5], ["pointerup", 3, 0.4, 0.5]]);
   await told(tab, "Column");
 });
+
+await test("a finger scrolls the page where all of a map is shown, and moves the map where it is enlarged", async (tab) => {
+  await idle(tab);
+  const action = () => tab.locator("#heat-map").evaluate((canvas) => getComputedStyle(canvas).touchAction);
+  assert.equal(await action(), "pan-x pan-y");
+  await tab.click("#zoom-in");
+  assert.equal(await action(), "none");
+  await tab.click("#fit");
+  assert.equal(await action(), "pan-x pan-y");
+});

@@ -3,6 +3,7 @@
 use super::delivery::{Delivery, Encoding, Topic};
 use crate::error::{Error, ErrorKind};
 use crate::warning::Warning;
+use rusqlite::config::DbConfig;
 use rusqlite::limits::Limit;
 use rusqlite::{Connection, ErrorCode, OpenFlags, Row, Statement};
 use std::path::Path;
@@ -41,21 +42,27 @@ pub(super) fn read_file(path: &Path, delivery: &mut Delivery<'_>) -> Result<Vec<
     for (limit, most) in limits {
         bag.set_limit(limit, most).map_err(refused)?;
     }
+    // The file is of a stranger: nothing in it is run, and its pages are checked.
+    bag.set_db_config(DbConfig::SQLITE_DBCONFIG_DEFENSIVE, true).map_err(refused)?;
+    bag.set_db_config(DbConfig::SQLITE_DBCONFIG_TRUSTED_SCHEMA, false).map_err(refused)?;
+    bag.pragma_update(None, "cell_size_check", true).map_err(refused)?;
     check_tables(&bag)?;
     let mut topics = bag
-        .prepare("SELECT id, name, type, serialization_format FROM topics ORDER BY id")
+        .prepare("SELECT id, name, type, serialization_format FROM topics NOT INDEXED ORDER BY rowid")
         .map_err(refused)?;
     declare(&mut topics, delivery)?;
     let wanted: Vec<String> = delivery.wanted().map(|id| id.to_string()).collect();
     let query = format!(
-        "SELECT topic_id, timestamp, data FROM messages WHERE topic_id IN ({}) ORDER BY id",
+        "SELECT topic_id, timestamp, data FROM messages NOT INDEXED WHERE topic_id IN ({}) ORDER BY rowid",
         wanted.join(", ")
     );
     let mut messages = bag.prepare(&query).map_err(refused)?;
     hand_over(&mut messages, path, delivery)
 }
 
-/// Refuses tables that are views, virtual, or have columns which SQLite computes: those could hold what the file does not.
+/// Refuses tables that are views, virtual, or have columns which SQLite computes: those could hold what the file does not. And
+/// those whose rows are not in the order of their numbers, which rosbag2's `id` is: SQLite would write all of them to a
+/// temporary file, to sort them.
 fn check_tables(bag: &Connection) -> Result<(), Error> {
     for (table, columns) in TABLES {
         let is_table = "SELECT type = 'table' AND rootpage > 0 FROM sqlite_master WHERE lower(name) = ?1";
@@ -66,13 +73,23 @@ fn check_tables(bag: &Connection) -> Result<(), Error> {
                 Error::new(ErrorKind::Unsupported, words).allowing("; allowed are ", "rosbag2's tables")
             );
         }
-        let query = "SELECT count(*) FROM pragma_table_xinfo(?1) WHERE hidden <> 0";
-        let computed: i64 = bag.query_row(query, [table], |row| row.get(0)).map_err(refused)?;
-        if computed > 0 {
-            let words = format!("computes columns of its table {table}");
-            return Err(Error::new(ErrorKind::Unsupported, words)
-                .with_value(computed.to_string())
-                .allowing("; allowed are ", format!("columns that are stored: {}", columns.join(", "))));
+        let count = |condition: &str| {
+            let query = format!("SELECT count(*) FROM pragma_table_xinfo(?1) WHERE {condition}");
+            bag.query_row(&query, [table], |row| row.get::<_, i64>(0)).map_err(refused)
+        };
+        let refused = |count: i64, words: &str| {
+            let words = format!("{words} its table {table}");
+            let refused = Error::new(ErrorKind::Unsupported, words).with_value(count.to_string());
+            Err(refused.allowing("; allowed are ", format!("columns that are stored: {}", columns.join(", "))))
+        };
+        match count("hidden <> 0")? {
+            0 => {}
+            computed => return refused(computed, "computes columns of"),
+        }
+        // The rows of a table can be had by their numbers unless a column takes the name of these.
+        match count("lower(name) = 'rowid'")? {
+            0 => {}
+            named => return refused(named, "has a column rowid in"),
         }
     }
     Ok(())

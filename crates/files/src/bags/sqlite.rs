@@ -18,6 +18,19 @@ const BESIDE_MESSAGE: u64 = 1 << 10;
 /// The most bytes of SQL in the file.
 const MOST_SQL: i32 = 1 << 20;
 
+/// The topics as they stand in the file, past any index.
+const QUERY_TOPICS: &str =
+    "SELECT id, name, type, serialization_format FROM topics NOT INDEXED ORDER BY rowid";
+
+/// Returns the query of the messages of some topics as they stand in the file, past any index: rosbag2's `id` is the number of
+/// a row. To sort them SQLite would write all of them to a temporary file.
+fn query_of_messages(topics: impl Iterator<Item = u64>) -> String {
+    let topics = topics.map(|id| id.to_string()).collect::<Vec<_>>().join(", ");
+    format!(
+        "SELECT topic_id, timestamp, data FROM messages NOT INDEXED WHERE topic_id IN ({topics}) ORDER BY rowid"
+    )
+}
+
 /// Says that nobody writes the file, so that SQLite puts none beside it.
 const IMMUTABLE: &str = "?immutable=1";
 
@@ -47,22 +60,14 @@ pub(super) fn read_file(path: &Path, delivery: &mut Delivery<'_>) -> Result<Vec<
     bag.set_db_config(DbConfig::SQLITE_DBCONFIG_TRUSTED_SCHEMA, false).map_err(refused)?;
     bag.pragma_update(None, "cell_size_check", true).map_err(refused)?;
     check_tables(&bag)?;
-    let mut topics = bag
-        .prepare("SELECT id, name, type, serialization_format FROM topics NOT INDEXED ORDER BY rowid")
-        .map_err(refused)?;
+    let mut topics = bag.prepare(QUERY_TOPICS).map_err(refused)?;
     declare(&mut topics, delivery)?;
-    let wanted: Vec<String> = delivery.wanted().map(|id| id.to_string()).collect();
-    let query = format!(
-        "SELECT topic_id, timestamp, data FROM messages NOT INDEXED WHERE topic_id IN ({}) ORDER BY rowid",
-        wanted.join(", ")
-    );
-    let mut messages = bag.prepare(&query).map_err(refused)?;
+    let mut messages = bag.prepare(&query_of_messages(delivery.wanted())).map_err(refused)?;
     hand_over(&mut messages, path, delivery)
 }
 
 /// Refuses tables that are views, virtual, or have columns which SQLite computes: those could hold what the file does not. And
-/// those whose rows are not in the order of their numbers, which rosbag2's `id` is: SQLite would write all of them to a
-/// temporary file, to sort them.
+/// those of which a column takes the name of the numbers of rows, by which they come.
 fn check_tables(bag: &Connection) -> Result<(), Error> {
     for (table, columns) in TABLES {
         let is_table = "SELECT type = 'table' AND rootpage > 0 FROM sqlite_master WHERE lower(name) = ?1";
@@ -80,13 +85,13 @@ fn check_tables(bag: &Connection) -> Result<(), Error> {
         let refused = |count: i64, words: &str| {
             let words = format!("{words} its table {table}");
             let refused = Error::new(ErrorKind::Unsupported, words).with_value(count.to_string());
-            Err(refused.allowing("; allowed are ", format!("columns that are stored: {}", columns.join(", "))))
+            Err(refused
+                .allowing("; allowed are ", format!("columns that are stored: {}", columns.join(", "))))
         };
         match count("hidden <> 0")? {
             0 => {}
             computed => return refused(computed, "computes columns of"),
         }
-        // The rows of a table can be had by their numbers unless a column takes the name of these.
         match count("lower(name) = 'rowid'")? {
             0 => {}
             named => return refused(named, "has a column rowid in"),
@@ -170,4 +175,24 @@ fn uri(path: &Path) -> Result<String, Error> {
     };
     let escaped = text.replace('%', "%25").replace('?', "%3f").replace('#', "%23");
     Ok(format!("file:{escaped}{IMMUTABLE}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_is_sorted() {
+        let bag = Connection::open_in_memory().unwrap();
+        let tables = "CREATE TABLE topics(id INTEGER, name TEXT, type TEXT, serialization_format TEXT);
+            CREATE TABLE messages(id INTEGER, topic_id INTEGER, timestamp INTEGER, data BLOB);
+            CREATE INDEX by_name ON topics(name, id); CREATE INDEX by_topic ON messages(topic_id, id);";
+        bag.execute_batch(tables).unwrap();
+        for query in [QUERY_TOPICS, &query_of_messages([3, 7].into_iter())] {
+            let mut plan = bag.prepare(&format!("EXPLAIN QUERY PLAN {query}")).unwrap();
+            let steps = plan.query_map([], |row| row.get::<_, String>(3)).unwrap();
+            let steps: Vec<_> = steps.map(Result::unwrap).collect();
+            assert!(matches!(&*steps, [one] if one.starts_with("SCAN ")), "{query}: {steps:?}");
+        }
+    }
 }

@@ -44,6 +44,12 @@ pub(crate) struct PyMap {
 
 #[pymethods]
 impl PyMap {
+    /// Mean information of the map, in bits per observed cell.
+    #[getter]
+    fn mean_information(&self) -> f64 {
+        self.tally.get().mean_information()
+    }
+
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
         let shape = self.cells.bind(py).getattr("shape")?;
         let tally = self.tally.bind(py).repr()?;

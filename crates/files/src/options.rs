@@ -69,7 +69,7 @@ pub struct Options {
     pub resolution: Option<f64>,
     /// The most cells of a map, refused before any is read; if absent, [`MAX_CELLS`] where cells are kept, and where they
     /// are only counted [`MAX_COUNTED`] for what is compressed (PNG, `.npz`) and none for PGM and `.npy`, which are at
-    /// least as long.
+    /// least as long. The pixels of other images, which are decoded whole, may also take 4 bytes for each of these cells.
     pub max_cells: Option<u64>,
 }
 

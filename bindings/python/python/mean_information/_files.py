@@ -11,6 +11,9 @@ from . import _native
 from ._arrays import Encoding, known, refusal
 from ._native import Map
 
+# Maps that are no grid of cells.
+_BY_COMMAND = (".ot", ".bt", ".pbstream")
+
 
 def read_map(
     path: str | PathLike[str],
@@ -77,13 +80,18 @@ def read_map(
             raise ValueError(f"{fspath(path)}: {name} is {value!r}, which is for {its_files}")
     if dtype is not None and (words := refusal(np.dtype(dtype), encoding or "probability")):
         raise ValueError(f"{fspath(path)}: {words}")
-    return _native.read_map(
-        path,
-        semantics=semantics,
-        mode=mode,
-        unknown=unknown,
-        encoding=encoding,
-        resolution=resolution,
-        topic=topic,
-        max_cells=max_cells,
-    )
+    try:
+        return _native.read_map(
+            path,
+            semantics=semantics,
+            mode=mode,
+            unknown=unknown,
+            encoding=encoding,
+            resolution=resolution,
+            topic=topic,
+            max_cells=max_cells,
+        )
+    except ValueError as refused:
+        if fspath(path).lower().endswith(_BY_COMMAND):
+            raise ValueError(f"{refused}; the command `meaninfo map` measures it") from None
+        raise

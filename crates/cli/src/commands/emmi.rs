@@ -35,7 +35,7 @@ pub struct Arguments {
     #[arg(long, value_name = "METRES", value_parser = positive::<f64>)]
     resolution: Option<f64>,
     /// Refuse particles of more cells together than this before memory is taken for them, 268435456 if absent; of a --filter,
-    /// maps of more cells than this, 67108864 if absent.
+    /// maps of more cells than this, 67108864 if absent: two poses some hundred metres apart make a large one of any log.
     #[arg(long, value_name = "N")]
     max_cells: Option<u64>,
     #[command(flatten)]

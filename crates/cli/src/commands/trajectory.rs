@@ -57,7 +57,8 @@ pub struct Arguments {
     /// No number changes.
     #[arg(long, value_name = "N")]
     threads: Option<NonZero<usize>>,
-    /// Refuse a map of more cells than this.
+    /// Refuse a map of more cells than this: two poses some hundred metres apart make a large one of any log, 2.7 GB for each
+    /// thread at the default.
     #[arg(long, value_name = "N", default_value_t = ScanMap::<f64>::MAX_CELLS)]
     max_cells: u64,
     #[command(flatten)]

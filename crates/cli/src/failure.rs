@@ -34,7 +34,7 @@ pub enum Failure {
     },
     /// A picture cannot be drawn.
     Drawing(String),
-    /// The program was built without what is asked for.
+    /// A part of the program is asked for that it was built without.
     NotBuiltIn(&'static str),
     /// Several inputs are refused, each for its own reason.
     Several(Vec<Failure>),

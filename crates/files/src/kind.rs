@@ -4,7 +4,7 @@ use crate::error::{Error, ErrorKind};
 use crate::names::{file_of, has_ending};
 use std::path::Path;
 
-/// The kind of a file by the ending of its name.
+/// The kind of a file, by the ending of its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum FileKind {

@@ -182,11 +182,9 @@ fn read_as<T: Target>(
             let message = "is a saved state of Cartographer, whose submaps are several grids, not one";
             return Err(Error::new(ErrorKind::Unsupported, message));
         }
-        if let Some(refused) = FileKind::refused(path, FileKind::Map) {
-            return Err(refused);
-        }
-        let refused = Error::new(ErrorKind::Unsupported, "is no map file by its name");
-        return Err(refused.with_value(name).allowing("; allowed are ", ENDINGS));
+        let unknown = Error::new(ErrorKind::Unsupported, "is no map file by its name");
+        let unknown = unknown.with_value(name).allowing("; allowed are ", ENDINGS);
+        return Err(FileKind::refused(path, FileKind::Map).unwrap_or(unknown));
     };
     map.files.push(file_of(path).to_owned());
     Ok(map)
@@ -332,13 +330,11 @@ fn scans(
             return Err(Error::new(ErrorKind::Unsupported, "is a bag, which is read from a disk only"));
         }
         if !is(&[".log", ".clf"]) {
-            if let Some(refused) = FileKind::refused(path, FileKind::Scans) {
-                return Err(refused);
-            }
-            let refused = Error::new(ErrorKind::Unsupported, "is no log of scans by its name");
+            let unknown = Error::new(ErrorKind::Unsupported, "is no log of scans by its name");
             let allowed =
                 "CARMEN logs, .log and .clf, bags, .mcap, .db3, .bag and their folders, and .pbstream";
-            return Err(refused.with_value(name).allowing("; allowed are ", allowed));
+            let unknown = unknown.with_value(name).allowing("; allowed are ", allowed);
+            return Err(FileKind::refused(path, FileKind::Scans).unwrap_or(unknown));
         }
         ScanLog::read_carmen(source.open(path)?.input, options)
     };

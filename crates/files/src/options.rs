@@ -15,6 +15,7 @@ pub const ARRAY_NUMBERS: &str = "if absent, floats are probabilities, int8 and u
 /// The loader whose rules turn grey levels into percentages.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
+#[non_exhaustive]
 pub enum Semantics {
     /// `nav2_map_server` since pull request 5071 of April 2025: Kilted, Rolling.
     #[default]
@@ -28,6 +29,7 @@ pub enum Semantics {
 /// The meaning of a ROS map's grey levels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
+#[non_exhaustive]
 pub enum Mode {
     /// Free, occupied or unknown by two thresholds.
     Trinary,
@@ -42,6 +44,7 @@ pub enum Mode {
 /// The meaning of the numbers of an `.npy` array.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
+#[non_exhaustive]
 pub enum ArrayEncoding {
     /// Occupancy probabilities (floats).
     Probability,
@@ -53,7 +56,8 @@ pub enum ArrayEncoding {
     Mrpt,
 }
 
-/// The options of the readers. The default is nav2's rules, and everything else as the file says.
+/// The options of the readers. The default is nav2's rules, and everything else as the file says. A release may add fields: what
+/// begins with `..Options::default()` stays as it is.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
     /// The loader whose rules turn the grey levels of a ROS map into percentages.

@@ -20,7 +20,7 @@ fn an_image_takes_at_most_three_times_its_decoded_pixels() {
     let map = folder.write("map.yaml", yaml("map.ppm", "negate: 0\n"));
     let side = 2048_u64;
     let mut image = File::create(folder.write("map.ppm", "")).unwrap();
-    write!(image, "P6 {side} {side} 100\n").unwrap();
+    writeln!(image, "P6 {side} {side} 100").unwrap();
     let decoded = 3 * side * side;
     let head = image.metadata().unwrap().len();
     image.set_len(head + decoded).unwrap();

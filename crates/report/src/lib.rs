@@ -1,5 +1,6 @@
 //! What is measured of a map, as rows of JSON and CSV, and the port protocol: what the command `meaninfo` and its page in a
-//! browser both say, to the byte. No arguments are parsed, nothing is printed and no picture drawn.
+//! browser both say, to the byte. No arguments are parsed, nothing is printed and no picture drawn. Of this library nothing is
+//! promised: what stays is the command, and the keys of its JSON.
 //!
 //! ```
 //! use mean_information_files::Memory;

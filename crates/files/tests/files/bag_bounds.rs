@@ -127,7 +127,7 @@ mod databases {
         let error = refused(&[TOPICS, named]);
         assert_eq!(error.kind(), ErrorKind::Unsupported);
         assert!(error.to_string().contains("has a column rowid in its table messages"), "{error}");
-        let keyed = MESSAGES.replace(";", " WITHOUT ROWID;");
+        let keyed = MESSAGES.replace(';', " WITHOUT ROWID;");
         let error = refused(&[TOPICS, &keyed]);
         assert!(error.to_string().contains("no such column: rowid"), "{error}");
     }

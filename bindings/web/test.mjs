@@ -238,7 +238,7 @@ function withMaps() {
   const out = join(work, "report.html");
   made("plan.yaml", YAML("plan.pgm"));
   made("plan.pgm", Buffer.from("P5\n3 2\n255\n\x00\xfe\x00\xfe\xcd\xfe", "latin1"));
-  const { status, stderr } = spawnSync(meaninfo, ["page", "--out", out, "plan.yaml"], { cwd: work, encoding: "utf8" });
+  const { status, stderr } = spawnSync(meaninfo, ["page", "--output", out, "plan.yaml"], { cwd: work, encoding: "utf8" });
   assert.equal(status, 0, stderr);
   return { page: pathToFileURL(out).href };
 }

@@ -32,7 +32,7 @@ use std::path::PathBuf;
 ///     x and y of the lower left corner in metres.
 /// tally : Tally
 ///     The measures of the map.
-/// changed : int or None
+/// changed_cells : int or None
 ///     The cells that differ from the map before, 0 for a message that says the same again; None for the first map and after a
 ///     change of size, resolution or place.
 /// warnings : list of str
@@ -45,7 +45,7 @@ pub(crate) struct PyBagMap {
     resolution: f64,
     origin: (f64, f64),
     tally: Py<PyTally>,
-    changed: Option<u64>,
+    changed_cells: Option<u64>,
     warnings: Vec<String>,
 }
 
@@ -72,9 +72,9 @@ impl PyBagMap {
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Made<'py, (State,)>> {
-        let Self { time_ns, topic, shape, resolution, origin, tally, changed, warnings } = self;
+        let Self { time_ns, topic, shape, resolution, origin, tally, changed_cells, warnings } = self;
         let (tally, warnings) = (tally.clone_ref(py), warnings.clone());
-        let state = (*time_ns, topic.clone(), *shape, *resolution, *origin, tally, *changed, warnings);
+        let state = (*time_ns, topic.clone(), *shape, *resolution, *origin, tally, *changed_cells, warnings);
         made(py, "_bag_map", (state,))
     }
 }
@@ -82,8 +82,8 @@ impl PyBagMap {
 /// Makes a map of a bag of what pickle has kept.
 #[pyfunction]
 pub(crate) fn _bag_map(state: State) -> PyBagMap {
-    let (time_ns, topic, shape, resolution, origin, tally, changed, warnings) = state;
-    PyBagMap { time_ns, topic, shape, resolution, origin, tally, changed, warnings }
+    let (time_ns, topic, shape, resolution, origin, tally, changed_cells, warnings) = state;
+    PyBagMap { time_ns, topic, shape, resolution, origin, tally, changed_cells, warnings }
 }
 
 /// A map of a bag, before it is Python's.
@@ -135,20 +135,27 @@ pub(crate) fn read_bag(
     })?
     .map_err(of_file)?;
     let mut warnings = words(&warnings);
-    let of_python = |(time_ns, shape, resolution, origin, tally, changed)| {
+    let of_python = |(time_ns, shape, resolution, origin, tally, changed_cells)| {
         let (topic, tally) = (topic.clone(), Py::new(py, PyTally::from(tally))?);
         let warnings = std::mem::take(&mut warnings);
-        Ok(PyBagMap { time_ns, topic, shape, resolution, origin, tally, changed, warnings })
+        Ok(PyBagMap { time_ns, topic, shape, resolution, origin, tally, changed_cells, warnings })
     };
     maps.into_iter().map(of_python).collect()
 }
 
 /// Measures a map as it stands.
 fn measured(map: &Snapshot<'_>) -> Measured {
-    let changed = match map.change {
+    let changed_cells = match map.change {
         Change::Cells(count) => Some(count),
         Change::First | Change::Frame => None,
     };
     let (shape, geometry) = ((map.height, map.width), map.geometry);
-    (map.time_ns, shape, geometry.resolution(), geometry.origin().into(), Percent::tally(map.cells), changed)
+    (
+        map.time_ns,
+        shape,
+        geometry.resolution(),
+        geometry.origin().into(),
+        Percent::tally(map.cells),
+        changed_cells,
+    )
 }

@@ -76,8 +76,7 @@ fn arguments(words: &str) -> String {
             text += "--";
             text += part;
         } else {
-            let name = part[..end].replace('-', "_");
-            text += if name == "force" { "costmaps=True" } else { &name };
+            text += &part[..end].replace('-', "_");
             text += &part[end..];
         }
     }

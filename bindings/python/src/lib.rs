@@ -61,7 +61,7 @@ mod _native {
     use super::bag::{_bag_map, PyBagMap, read_bag};
 
     #[pymodule_export]
-    use super::maps::{_map, PyMap, kind_of_map, read_map};
+    use super::maps::{_map, PyMap, no_use, read_map, type_of_array};
 
     #[pymodule_export]
     use super::scans::{_range_scan, _scan_log, PyRangeScan, PyScanLog, read_scans, read_trajectory};

@@ -10,7 +10,7 @@ use mean_information_files::bags::{self, MapTopic};
 use mean_information_files::{
     ArrayEncoding, Cells, Map, Mode, Options, Semantics, read_array_type_from, read_map_from, with_grid,
 };
-use mean_information_report::Measures;
+use mean_information_report::{Measures, uses};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use std::path::PathBuf;
@@ -44,6 +44,12 @@ pub(crate) struct PyMap {
 
 #[pymethods]
 impl PyMap {
+    /// Mean information of the map, in bits per observed cell.
+    #[getter]
+    fn mean_information(&self) -> f64 {
+        self.tally.get().mean_information()
+    }
+
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
         let shape = self.cells.bind(py).getattr("shape")?;
         let tally = self.tally.bind(py).repr()?;
@@ -68,23 +74,16 @@ pub(crate) fn _map(state: State) -> PyMap {
     PyMap { cells, encoding, resolution, origin, tally, warnings }
 }
 
-/// Tells what kind of file a map is by its name, "image", "array", "bag" or "other", and of an array the type of its elements.
+/// Says which files an argument of `read_map` is for, if the one at `path` has no use for it.
 #[pyfunction]
-pub(crate) fn kind_of_map(py: Python<'_>, path: PathBuf) -> PyResult<(&'static str, Option<String>)> {
-    if bags::is_bag(&path) {
-        return Ok(("bag", None));
-    }
-    let dtype = run(py, |source| read_array_type_from(source, &path))?;
-    let is_image =
-        path.extension().is_some_and(|end| ["yaml", "yml"].iter().any(|yaml| end.eq_ignore_ascii_case(yaml)));
-    let kind = if dtype.is_some() {
-        "array"
-    } else if is_image {
-        "image"
-    } else {
-        "other"
-    };
-    Ok((kind, dtype))
+pub(crate) fn no_use(argument: &str, path: PathBuf) -> Option<&'static str> {
+    uses::no_use(argument, &path)
+}
+
+/// Reads the type of the elements of an array; `None` of other files.
+#[pyfunction]
+pub(crate) fn type_of_array(py: Python<'_>, path: PathBuf) -> PyResult<Option<String>> {
+    run(py, |source| read_array_type_from(source, &path))
 }
 
 const SEMANTICS: [(&str, Semantics); 3] =

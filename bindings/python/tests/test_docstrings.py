@@ -49,7 +49,7 @@ def test_signatures_are_readable(name):
         ("limit", "limit(range, sigma, *, weight='radial', method='closed-form')"),
         ("Tally", "Tally(dtype=None)"),
         ("ScanMap", "ScanMap(resolution, *, sensor=None, reading_limit=3.5, agreement=False)"),
-        ("ScanMap", "insert(self, /, pose, bearings, ranges, *, max_range)"),
+        ("ScanMap", "insert(self, /, pose, bearings, ranges, *, max_range, no_return='free')"),
         ("RangeScan", "beams(self, /, *, no_return='left-out')"),
         ("Trajectory", "pose_at(self, /, time, *, max_gap=1.0)"),
     ],

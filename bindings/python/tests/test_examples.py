@@ -79,12 +79,12 @@ def test_a_bag_without_ros(tmp_path, monkeypatch, capsys, python):
     series = mi.read_bag(tmp_path / "bag", topic="/map")
     assert [row.tally for row in series] == expected and [row.time for row in series] == [0.0, 1.0, 2.0]
     changed = [np.count_nonzero(cells[k] != cells[k + 1]) for k in range(2)]
-    assert [row.changed for row in series] == [None, *changed]
+    assert [row.changed_cells for row in series] == [None, *changed]
     places = {(row.topic, row.shape, row.resolution, row.origin) for row in series}
     assert places == {("/map", (3, 4), series[0].resolution, (0.0, 0.0))}
     assert series[0].resolution == pytest.approx(0.05) and series[1].mean_information == expected[1].mean_information
     seen = mi.read_bag(tmp_path / "bag", topic="/other")
-    assert [(row.time_ns, row.changed) for row in seen] == [(500_000_000, None), (1_500_000_000, 0)]
+    assert [(row.time_ns, row.changed_cells) for row in seen] == [(500_000_000, None), (1_500_000_000, 0)]
     for travel in (lambda x: pickle.loads(pickle.dumps(x)), copy.deepcopy):
         assert repr(travel(series)) == repr(series) and travel(series[0]).tally == expected[0]
     assert mi.read_map(tmp_path / "bag", topic="/map").tally == expected[-1]
@@ -103,7 +103,7 @@ def test_a_bag_without_ros(tmp_path, monkeypatch, capsys, python):
     rows = json.loads(printed.stdout)
     assert [row["mean_information"] for row in rows] == [row.mean_information for row in series]
     assert [(row["time_s"], row["changed_cells"], row["free"]) for row in rows] == [
-        (row.time, row.changed, row.tally.free) for row in series
+        (row.time, row.changed_cells, row.tally.free) for row in series
     ]
 
 

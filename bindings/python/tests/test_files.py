@@ -8,6 +8,7 @@ import re
 import mean_information as mi
 import numpy as np
 import pytest
+from conftest import ROOT
 
 
 def test_a_ros_map(maps):
@@ -204,6 +205,14 @@ def test_errors_are_pythons_own_in_the_commands_words(tmp_path, maps):
     for arguments in ({"semantics": "x"}, {"mode": "x"}, {"encoding": "x"}):
         with pytest.raises(ValueError, match="is 'x', allowed are"):
             mi.read_map(maps / "room.yaml", **arguments)
+
+
+def test_costmaps_are_admitted_by_the_word_of_the_command():
+    bag, topic = ROOT / "crates/files/tests/bags/maps_lz4.bag", "/global_costmap/costmap"
+    for read in (mi.read_bag, mi.read_map):
+        with pytest.raises(ValueError, match="; topic names one, and costmaps of `meaninfo bag` admits costmaps$"):
+            read(bag, topic=topic)
+    assert mi.read_bag(bag, topic=topic, costmaps=True)[0].topic == topic
 
 
 def test_what_means_nothing_is_said(tmp_path):

@@ -43,7 +43,7 @@ pub enum Failure {
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Usage(message) => write!(f, "{}; try 'meaninfo --help'", one_line(message)),
+            Self::Usage(message) => f.write_str(&one_line(message)),
             Self::File { path, message } => f.write_str(&one_line(&format!("{}: {message}", path.display()))),
             Self::StandardOutput(message) => write!(f, "standard output: {}", one_line(message)),
             Self::Streams(message) => write!(f, "standard input or output: {}", one_line(message)),

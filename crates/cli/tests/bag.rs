@@ -55,6 +55,9 @@ fn json_holds_the_contract() {
     assert_eq!(column("repeats")[..6], [0, 0, 1, 0, 0, 0]);
     assert_eq!(column("time_s")[0], 1_700_000_000.25);
     assert_eq!(column("time_s")[2], 1_700_000_003.25);
+    assert_eq!(column("time_ns")[2], 1_700_000_003_250_000_000_u64);
+    // The topic that was not named is told.
+    assert_eq!((&rows[0]["bag"], &rows[0]["topic"]), (&bag("maps_mcap_zstd").into(), &"/map".into()));
     let changed = column("changed_cells");
     assert_eq!([&changed[0], &changed[5]], [&Value::Null; 2]);
     assert!(changed[2].as_u64().is_some_and(|count| (1..=6).contains(&count)), "{changed:?}");
@@ -63,11 +66,16 @@ fn json_holds_the_contract() {
 
 #[test]
 fn every_container_gives_the_same_rows() {
-    let first = stdout(&["bag", &bag("maps_none.bag"), "--format", "csv"]);
+    // But for the name of the bag, which is in the first column.
+    let rows = |name: &str| {
+        let csv = stdout(&["bag", &bag(name), "--format", "csv"]);
+        csv.lines().map(|line| line.split_once(',').unwrap().1.to_owned()).collect::<Vec<_>>()
+    };
+    let first = rows("maps_none.bag");
     for name in
         ["maps_bz2.bag", "maps_lz4.bag", "maps_mcap", "maps_mcap_zstd", "maps_mcap_lz4.mcap", "maps_db3"]
     {
-        assert_eq!(stdout(&["bag", &bag(name), "--format", "csv"]), first, "{name}");
+        assert_eq!(rows(name), first, "{name}");
     }
 }
 
@@ -95,11 +103,15 @@ fn costmaps_are_refused_by_name() {
     let path = bag("maps_lz4.bag");
     let topic = "/global_costmap/costmap";
     let line = refusal(&["bag", &path, "--topic", topic]);
-    assert!(line.contains("costs and not probabilities") && line.contains("--force"), "{line}");
-    let rows = json(&["bag", &path, "--topic", topic, "--force"]);
+    let advice = "--topic names one, and --costmaps of `meaninfo bag` admits costmaps\n";
+    assert!(line.contains("costs and not probabilities") && line.ends_with(advice), "{line}");
+    for command in ["map", "sweep"] {
+        assert!(refusal(&[command, &path, "--topic", topic]).ends_with(advice));
+    }
+    let rows = json(&["bag", &path, "--topic", topic, "--costmaps"]);
     assert_eq!((rows.len(), &rows[0]["repeats"], &rows[0]["observed"]), (1, &5.into(), &2.into()));
     let line = refusal(&["bag", &path, "--topic", "/other"]);
-    assert!(line.contains("has no topic /other") && line.contains("/map"), "{line}");
+    assert!(line.contains("has no topic /other") && line.ends_with("/map; --topic names one\n"), "{line}");
 }
 
 #[test]
@@ -182,7 +194,17 @@ fn meaninfo_map_measures_the_last_octree() {
     let line = refusal(&["map", two, "--topic", "/other"]);
     assert!(line.contains("has no topic /other of type nav_msgs/OccupancyGrid; topics of its maps are: /map; of octrees: /octomap"), "{line}");
     assert!(refusal(&["map", one, "--heat-map", "x.png"]).contains("of octrees, which have no picture"));
-    assert!(refusal(&["map", file, "--topic", "/octomap"]).contains("is no bag; --topic needs bags"));
+    // And so does a sweep.
+    let sweep = |arguments: &[&str]| {
+        let text = stdout(&[&["sweep"], arguments, &["--format", "json"]].concat());
+        serde_json::from_str::<Value>(&text).unwrap()["rows"].clone()
+    };
+    assert_eq!(sweep(&[two, "--topic", "/octomap"]), sweep(&[file]));
+    assert_eq!(sweep(&[one]), sweep(&[file]));
+    assert!(refusal(&["sweep", two]).contains("has no message of topic /map"));
+    for command in ["map", "sweep"] {
+        assert!(refusal(&[command, one, "--output", one]).contains("is an input"));
+    }
 }
 
 /// Sim time begins again: the maps are measured, and the row says so.

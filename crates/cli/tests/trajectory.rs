@@ -77,6 +77,10 @@ fn rows_are_those_of_the_library_called_directly() {
         );
         assert!(row["verdict"].as_str().unwrap().starts_with("room.true.tum makes the most consistent map"));
         assert_eq!(row["sensor"], "stepped: free 0.4, occupied 0.7, walls 0.2 m thick");
+        let numbers = ["sensor_free", "sensor_occupied", "thickness_m", "reading_limit_nats", "max_range_m"];
+        assert_eq!(numbers.map(|key| row[key].as_f64().unwrap()), [0.4, 0.7, 0.2, 3.5, 4.5]);
+        assert_eq!((&row["sigma_m"], &row["no_return"]), (&Value::Null, &"left-out".into()));
+        assert_eq!((&row["mount_x_m"], &row["meaningful"]), (&0.0.into(), &true.into()));
     }
     assert_eq!(rows[0]["difference"], Value::Null);
     let without: Vec<_> = without_truth.into_iter().zip(without_odometry).map(<[_; 2]>::from).collect();

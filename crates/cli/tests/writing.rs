@@ -48,6 +48,61 @@ fn two_files_are_written_both_or_neither() {
     assert_eq!(folder.names(), ["picture.png", "result", "room.pgm", "room.yaml"]);
 }
 
+/// The place is refused although the command would not get that far: its input is missing, or makes no sense.
+#[test]
+fn what_cannot_be_written_is_refused_before_the_work() {
+    let folder = Folder::new();
+    let [gone, made, bad] = ["gone", "made", "no/such/folder/file"].map(|name| folder.text_path(name));
+    let [svg, png] = [".svg", ".png"].map(|ending| bad.clone() + ending);
+    let [map, bag, log] = [".yaml", ".mcap", ".log"].map(|ending| gone.clone() + ending);
+    let trajectory = ["trajectory", &log, &gone];
+    let filter = ["emmi", "--filter", &gone];
+    let converge = ["converge", "--range", "2", "--sigma", "0.2", "--resolutions", "1e-300"];
+    let simulate = ["simulate", "--scans", "65536", "--scan-beams", "65536"];
+    for (command, option, file) in [
+        (&["map", &map][..], "--heat-map", &png),
+        (&["bag", &bag], "--plot", &svg),
+        (&["sweep", &map], "--plot", &svg),
+        (&trajectory, "--series", &svg),
+        (&trajectory, "--maps", &svg),
+        (&trajectory, "--heat-map", &png),
+        (&trajectory, "--conflicts", &png),
+        (&trajectory, "--out", &bad),
+        (&filter, "--plot", &svg),
+        (&converge, "--plot", &svg),
+        (&simulate, "--out", &bad),
+        (&["map", &map], "--output", &bad),
+        (&["bag", &bag], "--output", &bad),
+        (&["sweep", &map], "--output", &bad),
+        (&trajectory, "--output", &bad),
+        (&filter, "--output", &bad),
+        (&["emmi", "--particles", &gone, "--weights", &gone], "--output", &bad),
+        (&converge, "--output", &bad),
+        (&["limit", "--range", "2", "--sigma", "0.2", "--scans", "2"], "--output", &bad),
+        (&[&simulate[..], &["--out", &made]].concat(), "--output", &bad),
+        (&["page", &gone], "--output", &bad),
+        // Takes minutes, in a debug build.
+        (&["paper"], "--output", &bad),
+    ] {
+        let line = refusal(&[command, &[option, file]].concat());
+        assert!(line.starts_with(&format!("meaninfo: {file}")), "{command:?} {option}: {line}");
+    }
+    // A page in a folder that is to be made, and what is there already.
+    fs::create_dir_all(folder.path("out/index.html")).unwrap();
+    let line = refusal(&[&trajectory[..], &["--out", &folder.text_path("out")]].concat());
+    assert!(line.contains("out/index.html: is not a regular file"), "{line}");
+    let new = folder.text_path("new");
+    let line =
+        refusal(&[&trajectory[..], &["--out", &new, "--output", &(new.clone() + "/index.html")]].concat());
+    assert!(line.contains("is to be written twice"), "{line}");
+    assert!(refusal(&[&trajectory[..], &["--out", &new]].concat()).contains("gone"));
+    if cfg!(target_os = "linux") {
+        let line = refusal(&["map", &map, "--output", "/proc/rows.json"]);
+        assert!(line.starts_with("meaninfo: /proc/rows.json: cannot be written"), "{line}");
+    }
+    assert_eq!(folder.names(), ["out"]);
+}
+
 #[test]
 fn no_input_is_overwritten() {
     let folder = Folder::new();

@@ -116,7 +116,7 @@ impl Error {
             place: None,
             value: None,
             allowed: None,
-            message: message.into(),
+            message: bounded(&message.into()).into_owned(),
             source: None,
         }))
     }
@@ -140,14 +140,17 @@ impl Error {
 
     /// Adds the value, which the words have already.
     pub(crate) fn with_value(mut self, value: impl Into<String>) -> Self {
-        self.0.value = Some(value.into());
+        self.0.value = Some(bounded(&value.into()).into_owned());
         self
     }
 
     /// Adds what is allowed, also to the words, after `joint`.
     pub(crate) fn allowing(mut self, joint: &str, allowed: impl Into<Cow<'static, str>>) -> Self {
-        let allowed = allowed.into();
-        self.0.message.extend([joint, &*allowed]);
+        let mut allowed = allowed.into();
+        if let Cow::Owned(short) = bounded(&allowed) {
+            allowed = short.into();
+        }
+        self.0.message.extend([&*bounded(joint), &*allowed]);
         self.0.allowed = Some(allowed);
         self
     }
@@ -160,13 +163,13 @@ impl Error {
 
     /// Puts words behind the message.
     pub(crate) fn followed_by(mut self, words: &str) -> Self {
-        self.0.message.push_str(words);
+        self.0.message.push_str(&bounded(words));
         self
     }
 
     /// Puts words before the message.
     pub(crate) fn preceded_by(mut self, words: &str) -> Self {
-        self.0.message.insert_str(0, words);
+        self.0.message.insert_str(0, &bounded(words));
         self
     }
 
@@ -304,6 +307,20 @@ impl Error {
     }
 }
 
+/// The most bytes of a part of a message: a file may hold names and texts of millions.
+const MOST_WORDS: usize = 4096;
+
+/// Returns a text, without its middle where it is long.
+pub(crate) fn bounded(text: &str) -> Cow<'_, str> {
+    if text.len() <= MOST_WORDS {
+        return text.into();
+    }
+    let end = (0..=MOST_WORDS / 2).rev().find(|&at| text.is_char_boundary(at));
+    let start = (text.len() - MOST_WORDS / 2..).find(|&at| text.is_char_boundary(at));
+    let [end, start] = [end, start].map(Option::unwrap_or_default);
+    format!("{} [...] {}", &text[..end], &text[start..]).into()
+}
+
 /// Returns a number in few characters: a power of ten stands in the place of hundreds of zeros.
 pub(crate) fn short(value: f64) -> String {
     let size = value.abs();
@@ -311,5 +328,28 @@ pub(crate) fn short(value: f64) -> String {
         value.to_string()
     } else {
         format!("{value:e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What a file holds may be long; what is said of it is not.
+    #[test]
+    fn every_part_of_a_message_is_bounded() {
+        let long = "é".repeat(1 << 20);
+        let error = Error::new(ErrorKind::Format, format!("is {long}."))
+            .with_value(&*long)
+            .allowing(&long, long.clone())
+            .followed_by(&long)
+            .preceded_by(&long);
+        let most = MOST_WORDS + 8;
+        assert!(error.message().len() <= 5 * most, "{}", error.message().len());
+        let [value, allowed] = [error.value(), error.allowed()].map(Option::unwrap);
+        assert!(value.len() <= most && allowed.len() <= most);
+        assert!(value.starts_with("éé") && value.contains("é [...] é") && value.ends_with("éé"));
+        let exact = "a".repeat(MOST_WORDS);
+        assert_eq!(bounded(&exact), exact);
     }
 }

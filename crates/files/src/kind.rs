@@ -1,7 +1,7 @@
 //! What a file is by the ending of its name, for who is given another than is wanted.
 
 use crate::error::{Error, ErrorKind};
-use crate::npz;
+use crate::names::{file_of, has_ending};
 use std::path::Path;
 
 /// The kind of a file, by the ending of its name.
@@ -42,10 +42,8 @@ impl FileKind {
     }
 
     fn named(path: &Path) -> Option<(Self, &'static str)> {
-        let path = npz::split(path).map_or(path, |(file, _)| file);
-        let name = path.file_name()?.to_string_lossy().to_ascii_lowercase();
-        let found =
-            ENDINGS.iter().find(|(_, _, endings)| endings.iter().any(|&ending| name.ends_with(ending)));
+        let path = file_of(path);
+        let found = ENDINGS.iter().find(|(_, _, endings)| has_ending(path, endings));
         found.map(|&(kind, words, _)| (kind, words))
     }
 

@@ -45,6 +45,7 @@
 //! | [`ros`] | ROS maps: a yaml file that describes an image |
 //! | [`npy`] | NumPy's arrays |
 //! | `npz` | archives of them |
+//! | `names` | names of files: their endings, and those of arrays within archives |
 //! | [`gridmap`] | MRPT's grid maps |
 //! | `kind` | [`FileKind`]: what a file is by the ending of its name |
 //! | `words` | words that a reader does not understand, counted |
@@ -68,6 +69,7 @@ pub mod gridmap;
 mod image;
 mod kind;
 mod map;
+mod names;
 pub mod npy;
 mod npz;
 pub mod octree;
@@ -88,9 +90,10 @@ pub use cells::{Cells, CellsVisitor, Contents, Counted, Counts, Readable};
 pub use error::{Error, ErrorKind, Place};
 pub use kind::FileKind;
 pub use map::Map;
-pub use options::{ArrayEncoding, MAX_CELLS, MAX_COUNTED, Mode, Options, Semantics};
+pub use names::{file_of, is_array, is_description};
+pub use options::{ARRAY_NUMBERS, ArrayEncoding, MAX_CELLS, MAX_COUNTED, Mode, Options, Semantics};
 pub use read::{
-    file_of, read_array_type_from, read_filter_log, read_filter_log_from, read_map, read_map_contents,
+    read_array_type_from, read_filter_log, read_filter_log_from, read_map, read_map_contents,
     read_map_contents_from, read_map_from, read_octree, read_octree_from, read_particles,
     read_particles_from, read_scans, read_scans_from, read_selected_scans, read_submaps, read_submaps_from,
     read_trajectory, read_trajectory_from, read_weights, read_weights_from,

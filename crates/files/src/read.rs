@@ -5,6 +5,7 @@ use crate::cells::{Cells, CellsVisitor, Contents};
 use crate::error::{Error, ErrorKind, Place};
 use crate::kind::FileKind;
 use crate::map::Map;
+use crate::names::{file_of, has_ending, is_array, is_description};
 use crate::npy::{self, MapsVisitor};
 use crate::octree::{self, Octree, OctreeVisitor};
 use crate::options::{MAX_COUNTED, Mode, Options};
@@ -114,11 +115,6 @@ struct Array<'a> {
     compressed: bool,
 }
 
-/// Returns the file that is opened for `path`: that before the key of an array in `FILE.npz:KEY`.
-pub fn file_of(path: &Path) -> &Path {
-    npz::split(path).map_or(path, |(file, _)| file)
-}
-
 /// Opens the array at `path` of `source`, and has it read.
 fn with_array<T>(
     source: &impl Source,
@@ -142,10 +138,8 @@ fn with_array<T>(
 /// # Errors
 /// As [`npy::read_type`].
 pub fn read_array_type_from(source: &impl Source, path: &Path) -> Result<Option<String>, Error> {
-    let is_array =
-        npz::split(path).is_some() || path.extension().is_some_and(|end| end.eq_ignore_ascii_case("npy"));
     let read = || with_array(source, path, |array| npy::read_type(&mut array.input));
-    is_array.then(read).transpose().map_err(|error| error.in_file(path))
+    is_array(path).then(read).transpose().map_err(|error| error.in_file(path))
 }
 
 /// Reads a map whose cells go where `target` puts them.
@@ -156,14 +150,14 @@ fn read_as<T: Target>(
     target: T,
 ) -> Result<Map<T::Cells>, Error> {
     let name = path.file_name().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-    let is = |endings: &[&str]| endings.iter().any(|&ending| name.ends_with(ending));
-    let mut map = if is(&[".yaml", ".yml"]) {
+    let is = |endings: &[&str]| has_ending(path, endings);
+    let mut map = if is_description(path) {
         if options.unknown.is_some() && options.mode != Some(Mode::Probability) {
             let message = "a grey level for unknown needs mode probability; give both or neither";
             return Err(Error::new(ErrorKind::Options, message).at(Place::Option("unknown")));
         }
         ros::read(source, path, open(source, path)?.input, options)?
-    } else if is(&[".npy"]) || npz::split(path).is_some() {
+    } else if is_array(path) {
         with_array(source, path, |array| target.array(array, options))?
     } else if is(&[".gridmap", ".gridmap.gz"]) {
         if options.unknown.is_some() {
@@ -327,7 +321,7 @@ fn scans(
 ) -> Result<ScanLog, Error> {
     let read = || {
         let name = path.file_name().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-        let is = |endings: &[&str]| endings.iter().any(|&ending| name.ends_with(ending));
+        let is = |endings: &[&str]| has_ending(path, endings);
         if is(&[".pbstream"]) {
             let Opened { input, length } = open(source, path)?;
             return pbstream::read_scans(input, length, options, selection);

@@ -1,5 +1,6 @@
 //! What is measured of a map, as rows of JSON and CSV, and the port protocol: what the command `meaninfo` and its page in a
-//! browser both say, to the byte. No arguments are parsed, nothing is printed and no picture drawn.
+//! browser both say, to the byte. No arguments are parsed, nothing is printed and no picture drawn. Of this library nothing is
+//! promised: what stays is the command, and the keys of its JSON.
 //!
 //! ```
 //! use mean_information_files::Memory;
@@ -32,6 +33,7 @@
 //! | [`clamp`] | the occupancies of a tree that only tells free from occupied |
 //! | [`measures`] | what is measured of a map |
 //! | [`submaps`] | the submaps of saved states, apart or together |
+//! | [`uses`] | the files that have a use for an option |
 //! | [`octree`] | what is measured of an octree, at each depth |
 //! | [`measured_map`] | a map of any of these kinds, measured: a row |
 //! | [`sweep`] | the measures against the size of cells |
@@ -53,6 +55,7 @@ pub mod record;
 pub mod squares;
 pub mod submaps;
 pub mod sweep;
+pub mod uses;
 pub mod words;
 pub mod worst;
 

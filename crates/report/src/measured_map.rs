@@ -7,7 +7,9 @@ use crate::record::{Record, Value};
 use crate::submaps;
 use crate::words::{Refused, in_words};
 use mean_information_files::bags::{self, AnyMap, MapTopic, last_map_of_any_kind};
-use mean_information_files::{Contents, Disk, Error, Map, Options, Source, octree, read_map_contents_from};
+use mean_information_files::{
+    Contents, Disk, Error, Map, Options, Source, octree, read_map, read_map_contents_from,
+};
 use std::path::{Path, PathBuf};
 
 /// The way a map is read and measured.
@@ -24,11 +26,15 @@ pub struct Reading {
 }
 
 impl Reading {
-    /// Reads the last map of a bag, of the topic wanted.
+    /// Reads the map at `path` on the disk with its cells; of a bag, its last one, of the topic wanted. An octree that is a
+    /// file has none.
     ///
     /// # Errors
-    /// As [`last_map_of_any_kind`].
-    pub fn last_map(&self, path: &Path) -> Result<AnyMap, Error> {
+    /// As [`read_map`] and [`last_map_of_any_kind`].
+    pub fn map(&self, path: &Path) -> Result<AnyMap, Error> {
+        if !bags::is_bag(path) {
+            return read_map(path, &self.options).map(AnyMap::Grid);
+        }
         let wanted = MapTopic { name: self.topic.clone(), costmaps: false };
         last_map_of_any_kind(path, &wanted, &self.options)
     }
@@ -62,7 +68,7 @@ impl MeasuredMap {
         if !bags::is_bag(path) {
             return Self::read_from(&Disk, path, reading);
         }
-        Ok(vec![match reading.last_map(path)? {
+        Ok(vec![match reading.map(path)? {
             AnyMap::Octree(message) => {
                 Self::of_tree(path, MeasuredTree::of_message(path, &message, reading.clamp)?)
             }
@@ -112,7 +118,7 @@ impl MeasuredMap {
     }
 
     fn of_tree(path: &Path, tree: MeasuredTree) -> Self {
-        let (name, files) = (path.display().to_string(), vec![path.to_owned()]);
+        let (name, files) = (path.display().to_string(), tree.files.clone());
         let (warnings, resolution) = (tree.warnings.clone(), Some(tree.resolution));
         let measures = tree.measures.clone();
         Self { name, resolution, measures, is_rectangle: false, tree: Some(tree), warnings, files }

@@ -12,7 +12,7 @@ use mean_information::{ExactSum, Tally};
 use mean_information_files::bags::OctreeMessage;
 use mean_information_files::octree::{DEPTH, Leaf, Octant, Octree, OctreeVisitor};
 use mean_information_files::{Error, Source, read_octree_from};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The number of depths, that of the root included.
 const DEPTHS: usize = DEPTH as usize + 1;
@@ -60,6 +60,8 @@ pub struct MeasuredTree {
     pub measures: Measures,
     /// The signs that the tree means less than it seems, in words.
     pub warnings: Vec<String>,
+    /// The files that it was read from.
+    pub files: Vec<PathBuf>,
 }
 
 /// The finest cells measured.
@@ -102,7 +104,7 @@ impl MeasuredTree {
         let measures = Measures::of_octree(&cells.tally, !cells.values.has_more);
         let mut warnings = in_words(&tree.warnings);
         warnings.extend(measures.warning());
-        Ok(Self { resolution: tree.resolution, leaves: tree.leaves, measures, warnings })
+        Ok(Self { resolution: tree.resolution, leaves: tree.leaves, measures, warnings, files: tree.files })
     }
 
     /// Returns the volume of the observed cells in cubic metres, within 2 ulp, if it is a number.
@@ -138,6 +140,8 @@ pub struct MeasuredDepths {
     pub measures: Vec<Measures>,
     /// The signs that the tree means less than it seems, in words.
     pub warnings: Vec<String>,
+    /// The files that it was read from.
+    pub files: Vec<PathBuf>,
 }
 
 impl MeasuredDepths {
@@ -147,14 +151,30 @@ impl MeasuredDepths {
     /// # Errors
     /// A file that is no octree.
     pub fn read(source: &impl Source, path: &Path, clamp: Clamp) -> Result<Self, Refused> {
+        Self::measured(clamp, |depths| read_octree_from(source, path, depths))
+    }
+
+    /// Reads the tree of a message of the bag at `path` and measures it at each depth, as [`MeasuredDepths::read`] does.
+    ///
+    /// # Errors
+    /// As [`OctreeMessage::read`].
+    pub fn of_message(path: &Path, message: &OctreeMessage, clamp: Clamp) -> Result<Self, Refused> {
+        Self::measured(clamp, |depths| message.read(depths).map_err(|error| error.in_file(path)))
+    }
+
+    /// Measures a tree as it is read.
+    fn measured(
+        clamp: Clamp,
+        read: impl FnOnce(&mut Depths) -> Result<Octree, Error>,
+    ) -> Result<Self, Refused> {
         let mut depths = Depths { values: Values { clamp, ..Values::default() }, ..Depths::default() };
-        let tree = read_octree_from(source, path, &mut depths)?;
+        let tree = read(&mut depths)?;
         let has_two_values = !depths.values.has_more;
         let finest_first = depths.tallies.iter().rev();
         let measures: Vec<_> = finest_first.map(|tally| Measures::of_octree(tally, has_two_values)).collect();
         let mut warnings = in_words(&tree.warnings);
         warnings.extend(measures[0].warning());
-        Ok(Self { resolution: tree.resolution, measures, warnings })
+        Ok(Self { resolution: tree.resolution, measures, warnings, files: tree.files })
     }
 }
 

@@ -64,7 +64,7 @@ impl Sweep {
 
     /// Takes the measures of an octree at each depth, from that of the finest cells to the root.
     pub fn of_depths(name: String, depths: MeasuredDepths) -> Self {
-        let MeasuredDepths { resolution, measures, warnings } = depths;
+        let MeasuredDepths { resolution, measures, warnings, .. } = depths;
         let steps = measures.into_iter().enumerate().map(|(up, measures)| Step { k: 1 << up, measures });
         Self { name, resolution: Some(resolution), steps: steps.collect(), has_depths: true, warnings }
     }

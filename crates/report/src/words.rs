@@ -60,11 +60,14 @@ impl From<Error> for Refused {
                 format!("{}; raise it with --max-cells if the file is meant", error.message())
             }
             ErrorKind::Choice => match error.place() {
-                Some(Place::Option("file")) => error.message().to_owned(),
-                Some(Place::Option(option)) => format!("{}; --{option} names one", error.message()),
-                _ => {
-                    format!("{}; `meaninfo bag --topic` names one, --force admits costmaps", error.message())
+                Some(Place::Option("costmaps")) => {
+                    let advice = "--topic names one, and --costmaps of `meaninfo bag` admits costmaps";
+                    format!("{}; {advice}", error.message())
                 }
+                Some(&Place::Option(option)) if option != "file" => {
+                    format!("{}; --{option} names one", error.message())
+                }
+                _ => error.message().to_owned(),
             },
             ErrorKind::OtherKind => {
                 let command = error.file().and_then(FileKind::of).map_or("", command_for);

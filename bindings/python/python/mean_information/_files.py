@@ -11,14 +11,8 @@ from . import _native
 from ._arrays import Encoding, known, refusal
 from ._native import Map
 
-_FOR = {
-    "semantics": ("image", "ROS maps"),
-    "mode": ("image", "ROS maps"),
-    "unknown": ("image array", "ROS maps and arrays of floats"),
-    "encoding": ("array", "arrays, .npy and .npz; other files say it themselves"),
-    "resolution": ("array", "arrays, .npy and .npz; other files say it themselves"),
-    "topic": ("bag", "bags"),
-}
+# Maps that are no grid of cells.
+_BY_COMMAND = (".ot", ".bt", ".pbstream")
 
 
 def read_map(
@@ -72,20 +66,32 @@ def read_map(
     """
     if encoding is not None:
         known(encoding)
-    kind, dtype = _native.kind_of_map(path)
-    for name, value in zip(_FOR, (semantics, mode, unknown, encoding, resolution, topic), strict=True):
-        kinds, its_files = _FOR[name]
-        if value is not None and kind not in kinds.split():
+    dtype = _native.type_of_array(path)
+    given = {
+        "semantics": semantics,
+        "mode": mode,
+        "unknown": unknown,
+        "encoding": encoding,
+        "resolution": resolution,
+        "topic": topic,
+    }
+    for name, value in given.items():
+        if value is not None and (its_files := _native.no_use(name, path)):
             raise ValueError(f"{fspath(path)}: {name} is {value!r}, which is for {its_files}")
     if dtype is not None and (words := refusal(np.dtype(dtype), encoding or "probability")):
         raise ValueError(f"{fspath(path)}: {words}")
-    return _native.read_map(
-        path,
-        semantics=semantics,
-        mode=mode,
-        unknown=unknown,
-        encoding=encoding,
-        resolution=resolution,
-        topic=topic,
-        max_cells=max_cells,
-    )
+    try:
+        return _native.read_map(
+            path,
+            semantics=semantics,
+            mode=mode,
+            unknown=unknown,
+            encoding=encoding,
+            resolution=resolution,
+            topic=topic,
+            max_cells=max_cells,
+        )
+    except ValueError as refused:
+        if fspath(path).lower().endswith(_BY_COMMAND):
+            raise ValueError(f"{refused}; the command `meaninfo map` measures it") from None
+        raise

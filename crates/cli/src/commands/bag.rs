@@ -22,8 +22,8 @@ pub struct Arguments {
     #[arg(long)]
     topic: Option<String>,
     /// Take costmaps for maps of occupancies: their cells are costs of driving, not percentages.
-    #[arg(long)]
-    force: bool,
+    #[arg(long, requires = "topic")]
+    costmaps: bool,
     /// Leave out maps that were recorded sooner than this after the one before in the result.
     #[arg(long, value_name = "SECONDS", value_parser = positive::<f64>)]
     every: Option<f64>,
@@ -40,13 +40,14 @@ pub struct Arguments {
 impl Arguments {
     pub(super) fn run(&self) -> Result<Status, Failure> {
         let picture = self.plot.as_deref().map(Picture::by_name).transpose()?;
-        let wanted = MapTopic { name: self.topic.clone(), costmaps: self.force };
+        let wanted = MapTopic { name: self.topic.clone(), costmaps: self.costmaps };
         let options = Options { max_cells: self.max_cells, ..Options::default() };
+        let mut files = Files::new();
+        files.read(bag_files(&self.bag)?);
+        self.writing.check(&files, self.plot.as_deref())?;
         // Rounded to the clock's ticks; what is longer than it counts is never over.
         let every = self.every.map(|every| (every * 1e9).round() as u64);
         let series = Series::read(&self.bag, &wanted, every, &options)?;
-        let mut files = Files::new();
-        files.read(bag_files(&self.bag)?);
         if let (Some(path), Some(picture)) = (&self.plot, picture) {
             let title = format!("{}, {}", plots::title(&self.bag), series.topic);
             files.add(path, SeriesPlot::new(&series, title).draw(picture)?);
@@ -62,15 +63,23 @@ struct Measured {
     series: Series,
 }
 
-/// Returns the record of a row; what was noticed of the bag stands in its first.
-fn record(row: &Row, of_bag: &[String]) -> Record {
-    let mut entries = vec![("time_s", Value::Given(Some(seconds(row.time_ns))))];
-    entries.extend(row.measures.entries(Some(row.resolution)));
-    entries.push(("repeats", Value::Count(row.repeats)));
-    entries.push(("changed_cells", row.changed.map_or(Value::Given(None), Value::Count)));
-    entries.push(("meaningful", Value::Flag(row.measures.not_meaningful.is_none())));
-    entries.push(("warnings", Value::Texts([of_bag, &row.warnings].concat())));
-    Record(entries)
+impl Measured {
+    /// Returns the record of a row; what was noticed of the bag stands in its first.
+    fn record(&self, index: usize, row: &Row) -> Record {
+        let of_bag = if index == 0 { &*self.series.warnings } else { &[] };
+        let mut entries = vec![
+            ("bag", Value::Text(self.bag.clone())),
+            ("topic", Value::Text(self.series.topic.clone())),
+            ("time_s", Value::Given(Some(seconds(row.time_ns)))),
+            ("time_ns", Value::Count(row.time_ns)),
+        ];
+        entries.extend(row.measures.entries(Some(row.resolution)));
+        entries.push(("repeats", Value::Count(row.repeats)));
+        entries.push(("changed_cells", row.changed.map_or(Value::Given(None), Value::Count)));
+        entries.push(("meaningful", Value::Flag(row.measures.not_meaningful.is_none())));
+        entries.push(("warnings", Value::Texts([of_bag, &row.warnings].concat())));
+        Record(entries)
+    }
 }
 
 impl Report for Measured {
@@ -122,8 +131,6 @@ impl Report for Measured {
     }
 
     fn rows(&self) -> Vec<Record> {
-        let Series { rows, warnings, .. } = &self.series;
-        let of_bag = |index: usize| if index == 0 { &**warnings } else { &[] };
-        rows.iter().enumerate().map(|(index, row)| record(row, of_bag(index))).collect()
+        self.series.rows.iter().enumerate().map(|(index, row)| self.record(index, row)).collect()
     }
 }

@@ -3,7 +3,7 @@
 use super::Status;
 use crate::check::{Check, KnownFailures, Options, Registry, Vectors};
 use crate::failure::Failure;
-use crate::output::{self, Files, Report, write_text};
+use crate::output::{self, Files, Report, may_write, write_text};
 use clap::{Args, ValueEnum};
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
@@ -78,9 +78,7 @@ impl Arguments {
         files.read(self.vectors.iter().flat_map(|folder| files_in(folder)));
         files.read(self.command.iter().map(PathBuf::from));
         files.read(self.command.first().and_then(|program| found_on_path(program)));
-        if let Some(output) = &self.output {
-            files.may_write(output)?;
-        }
+        may_write(&files, [], self.output.as_deref())?;
         let vectors = match &self.vectors {
             Some(folder) => Vectors::in_folder(folder)?,
             None => Vectors::built_in()?,

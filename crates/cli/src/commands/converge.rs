@@ -35,6 +35,8 @@ pub struct Arguments {
 impl Arguments {
     pub(super) fn run(&self) -> Result<Status, Failure> {
         let picture = self.plot.as_deref().map(Picture::by_name).transpose()?;
+        let mut files = Files::new();
+        self.writing.check(&files, self.plot.as_deref())?;
         let refused = |error: mean_information::Error| Failure::Usage(error.to_string());
         let sensor = GaussianSensor::new(self.range, self.sigma).map_err(refused)?;
         let resolutions = if self.resolutions.is_empty() {
@@ -49,7 +51,6 @@ impl Arguments {
         let series = kinds.into_iter().map(|kind| Series::of(kind, sensor, &resolutions));
         let series = series.collect::<Result<_, _>>().map_err(refused)?;
         let convergence = Convergence { range: self.range, sigma: self.sigma, series };
-        let mut files = Files::new();
         if let (Some(path), Some(picture)) = (&self.plot, picture) {
             files.add(path, ConvergencePlot::new(&convergence).draw(picture)?);
         }

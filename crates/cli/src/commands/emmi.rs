@@ -12,7 +12,7 @@ use mean_information::expected::{Hypotheses, weighted_mean};
 use mean_information::map::Grid;
 use mean_information_files::npy::MapsVisitor;
 use mean_information_files::{
-    ArrayEncoding, MAX_CELLS, Options, Readable, file_of, read_particles, read_weights,
+    ARRAY_NUMBERS, ArrayEncoding, MAX_CELLS, Options, Readable, file_of, read_particles, read_weights,
 };
 use mean_information_report::measures::Measures;
 use std::path::{Path, PathBuf};
@@ -26,8 +26,7 @@ pub struct Arguments {
     /// Their weights: an .npy list of floats or integers, not negative and not all 0; they need not add up to 1.
     #[arg(long, value_name = "FILE.npy", requires = "particles")]
     weights: Option<PathBuf>,
-    /// What the numbers of the maps are; if absent, floats are probabilities and int8 are percentages.
-    #[arg(long, value_enum, requires = "particles")]
+    #[arg(long, value_enum, requires = "particles", help = format!("What the numbers of the maps are; {ARRAY_NUMBERS}"))]
     encoding: Option<ArrayEncoding>,
     /// The number of maps of floats that means unknown, or nan.
     #[arg(long, value_name = "NUMBER|nan", requires = "particles")]
@@ -36,7 +35,7 @@ pub struct Arguments {
     #[arg(long, value_name = "METRES", value_parser = positive::<f64>)]
     resolution: Option<f64>,
     /// Refuse particles of more cells together than this before memory is taken for them, 268435456 if absent; of a --filter,
-    /// maps of more cells than this, 67108864 if absent.
+    /// maps of more cells than this, 67108864 if absent: two poses some hundred metres apart make a large one of any log.
     #[arg(long, value_name = "N")]
     max_cells: Option<u64>,
     #[command(flatten)]
@@ -65,6 +64,9 @@ impl Arguments {
 
     /// Measures the expected map of maps as they are stored.
     fn run_once(&self, particles: &Path, weights_file: &Path) -> Result<Status, Failure> {
+        let mut files = Files::new();
+        files.read([particles, weights_file].map(|path| file_of(path).to_owned()));
+        self.writing.check(&files, [])?;
         let max_cells = self.max_cells.unwrap_or(MAX_CELLS);
         let options = Options {
             encoding: self.encoding,
@@ -78,8 +80,6 @@ impl Arguments {
         let expected = expected.map_err(|error| refused(error, particles, weights_file))?;
         let name = particles.display().to_string();
         let report = Emmi { name, weights, resolution: self.resolution, expected };
-        let mut files = Files::new();
-        files.read([particles, weights_file].map(|path| file_of(path).to_owned()));
         self.writing.write(&report, files)?;
         Ok(Status::Done)
     }

@@ -7,7 +7,7 @@ use crate::filter::{FilterReport, Made, Refused, chart, measure};
 use crate::output::{Files, Writing};
 use crate::plots::{self, Drawing, Picture};
 use crate::progress::Progress;
-use crate::trajectory::far_pose;
+use crate::trajectory::{Laser, far_pose};
 use clap::Args;
 use mean_information::Error;
 use mean_information::scan::{Pose, ScanMap};
@@ -67,18 +67,19 @@ impl Filter {
         let max_cells = max_cells.unwrap_or(ScanMap::<f64>::MAX_CELLS);
         let setup = self.sensor.setup(resolution.unwrap_or(RESOLUTION), max_cells)?;
         let picture = self.plot.as_deref().map(Picture::by_name).transpose()?;
+        let mut files = Files::new();
+        files.read([path.to_owned()]);
+        writing.check(&files, self.plot.as_deref())?;
         let options = ScanOptions { maximum_range: self.sensor.max_range, ..ScanOptions::default() };
         let log = read_filter_log(path, &options)?;
-        let (log, mount) = match self.mount {
-            Some(mount) => {
-                let [x, y] = mount.position();
-                let words = format!("the laser at {x}, {y} m and {} rad on the robot", mount.theta());
-                (log.mounted(&mount).map_err(|error| error.in_file(path))?, words)
-            }
+        let (log, mount) = if let Some(mount) = self.mount {
+            let [x, y] = mount.position();
+            let words = format!("the laser at {x}, {y} m and {} rad on the robot", mount.theta());
+            (log.mounted(&mount).map_err(|error| error.in_file(path))?, (mount, words))
+        } else {
             // GMapping writes the robot's poses, and not where its laser is.
-            None => {
-                (log, "poses are taken for those of the laser; --mount X,Y,YAW says where it is".to_owned())
-            }
+            let words = "poses are taken for those of the laser; --mount X,Y,YAW says where it is";
+            (log, (Pose::new(0.0, 0.0, 0.0)?, words.to_owned()))
         };
         let progress = Progress::new(log.steps.len());
         progress.begin(&format!("scans of {} particles", log.particles()));
@@ -91,10 +92,9 @@ impl Filter {
             particles: log.particles(),
             gain: log.gain,
             setup,
-            mount,
+            laser: Laser::new(mount, log.steps.iter().map(|step| &step.scan)),
             warnings: in_words(&log.warnings),
         };
-        let mut files = Files::new();
         files.read(log.files.iter().cloned());
         if let (Some(path), Some(picture)) = (&self.plot, picture) {
             let title = format!("{}: {} particles", plots::title(Path::new(&made.log)), made.particles);

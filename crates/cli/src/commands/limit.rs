@@ -77,11 +77,13 @@ enum Float {
 
 impl Arguments {
     pub(super) fn run(&self) -> Result<Status, Failure> {
+        let files = Files::new();
+        self.writing.check(&files, [])?;
         let limit = match self.float {
             Float::F32 => self.limit::<f32>(),
             Float::F64 => self.limit::<f64>(),
         }?;
-        self.writing.write(&limit, Files::new())?;
+        self.writing.write(&limit, files)?;
         Ok(if limit.status == CONVERGED { Status::Done } else { Status::CheckFailed })
     }
 

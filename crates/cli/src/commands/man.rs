@@ -1,16 +1,12 @@
 //! `meaninfo man`: manual pages, one of the command and one of each of its commands.
 
-use super::Status;
+use super::{EXIT_STATUS, Status};
 use crate::failure::Failure;
 use crate::output::Files;
+use clap::builder::Resettable;
 use clap::{Args, CommandFactory};
 use clap_mangen::Man;
 use std::path::PathBuf;
-
-/// What each page says at its end.
-const EXIT_STATUS: &str = ".SH \"EXIT STATUS\"\n\
-    0 is done, 1 done and a check did not hold (paper, check), 2 refused, with a line on standard error for each thing that \
-    is wrong.\n";
 
 /// The arguments of `meaninfo man`.
 #[derive(Args, Debug)]
@@ -34,7 +30,8 @@ impl Arguments {
 
 /// Returns each page with the name of its file.
 fn pages() -> Result<Vec<(String, Vec<u8>)>, Failure> {
-    let mut all = super::Arguments::command().disable_help_subcommand(true);
+    // The statuses have a section of their own.
+    let mut all = super::Arguments::command().disable_help_subcommand(true).after_help(Resettable::Reset);
     all.build();
     let each = std::iter::once(all.clone()).chain(all.get_subcommands().cloned());
     let page = |command| {
@@ -42,7 +39,8 @@ fn pages() -> Result<Vec<(String, Vec<u8>)>, Failure> {
             Man::new(command).source(concat!("meaninfo ", env!("CARGO_PKG_VERSION"))).manual("meaninfo");
         let mut page = Vec::new();
         man.render(&mut page).map_err(|error| Failure::StandardOutput(error.to_string()))?;
-        page.extend_from_slice(EXIT_STATUS.as_bytes());
+        // A hyphen of roff would be a typographic one.
+        page.extend(format!(".SH \"EXIT STATUS\"\n{}\n", EXIT_STATUS.replace('-', "\\-")).into_bytes());
         Ok((man.get_filename(), page))
     };
     each.map(page).collect()

@@ -7,9 +7,8 @@ use crate::plots::{self, HeatMap};
 use crate::progress::Progress;
 use crate::reading::ReadingArguments;
 use clap::Args;
-use mean_information_files::bags::{self, AnyMap};
-use mean_information_files::{Map, read_map};
-use mean_information_report::submaps::is_state;
+use mean_information_files::bags::AnyMap;
+use mean_information_files::{Map, file_of};
 use mean_information_report::{MeasuredMap, Measures, NotMeaningful, Reading, records};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
@@ -24,10 +23,6 @@ pub struct Arguments {
     /// Draw the information of every cell of the one map given to this PNG file.
     #[arg(long, value_name = "FILE.png")]
     heat_map: Option<PathBuf>,
-    /// The topic of a bag that is measured, of OccupancyGrid or of Octomap; if absent, the only one of OccupancyGrid that is
-    /// no costmap, or else the only one of Octomap.
-    #[arg(long)]
-    topic: Option<String>,
     /// Give each submap of a saved state a row, in place of one for all.
     #[arg(long)]
     submaps: bool,
@@ -51,15 +46,10 @@ impl Arguments {
                 )));
             }
         }
-        if let Some(path) = self.maps.iter().find(|path| self.topic.is_some() && !bags::is_bag(path)) {
-            return Err(Failure::file(path, "is no bag; --topic needs bags, leave it out"));
-        }
-        if let Some(path) = self.maps.iter().find(|path| self.submaps && !is_state(path)) {
-            return Err(Failure::file(
-                path,
-                "is no saved state; --submaps needs .pbstream files, leave it out",
-            ));
-        }
+        let reading = self.reading.of(&self.maps, self.submaps)?;
+        let mut files = Files::new();
+        files.read(self.maps.iter().map(|map| file_of(map).to_owned()));
+        self.writing.check(&files, self.heat_map.as_deref())?;
         let progress = Progress::new(self.maps.len());
         // Threads share the files; the results stay in order.
         let results: Vec<_> = self
@@ -67,14 +57,13 @@ impl Arguments {
             .par_iter()
             .map(|path| {
                 progress.begin(&path.display().to_string());
-                let measured = self.measure(path);
+                let measured = self.measure(path, &reading);
                 progress.done();
                 measured
             })
             .collect();
         drop(progress);
 
-        let mut files = Files::new();
         let (mut measured, mut failures) = (Vec::with_capacity(results.len()), Vec::new());
         for result in results {
             match result {
@@ -99,18 +88,12 @@ impl Arguments {
     }
 
     /// Measures one map, or each submap of a saved state, and draws it if a picture is wanted.
-    fn measure(&self, path: &Path) -> Result<Measured, Failure> {
-        let reading = Reading {
-            options: self.reading.options(),
-            clamp: self.reading.clamp(),
-            submaps: self.submaps,
-            topic: self.topic.clone(),
-        };
+    fn measure(&self, path: &Path, reading: &Reading) -> Result<Measured, Failure> {
         // Only a picture needs the cells themselves.
         if self.heat_map.is_none() {
-            return Ok((MeasuredMap::read(path, &reading)?, None));
+            return Ok((MeasuredMap::read(path, reading)?, None));
         }
-        let map = drawable(path, &reading)?;
+        let map = drawable(path, reading)?;
         let measures = Measures::of(&map.cells).noticing(&map.warnings);
         let picture = drawn(path, &map, &measures)?;
         Ok((vec![MeasuredMap::new(path, map, measures)], Some(picture)))
@@ -122,10 +105,7 @@ type Measured = (Vec<MeasuredMap>, Option<Vec<u8>>);
 
 /// Reads a map with its cells, of a bag the last one.
 fn drawable(path: &Path, reading: &Reading) -> Result<Map, Failure> {
-    if !bags::is_bag(path) {
-        return Ok(read_map(path, &reading.options)?);
-    }
-    match reading.last_map(path)? {
+    match reading.map(path)? {
         AnyMap::Octree(message) => Err(Failure::file(
             path,
             format!("{} is of octrees, which have no picture; leave out --heat-map", message.topic()),

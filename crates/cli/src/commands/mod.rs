@@ -25,7 +25,7 @@ use std::ffi::OsString;
 /// The mean information of occupancy maps (Blanco's measure): how certain a map is of the cells it has observed, in
 /// bits per observed cell, from 0 to 1.
 #[derive(Debug, Parser)]
-#[command(name = "meaninfo", version, arg_required_else_help = false)]
+#[command(name = "meaninfo", version, arg_required_else_help = false, after_help = format!("Exit status: {EXIT_STATUS}"))]
 pub struct Arguments {
     /// The command.
     #[command(subcommand)]
@@ -37,10 +37,7 @@ impl Arguments {
     ///
     /// # Errors
     /// What is wrong with them; also a request for help or for the version.
-    pub fn of<A: Into<OsString> + Clone>(
-        arguments: impl IntoIterator<Item = A>,
-    ) -> Result<Self, clap::Error> {
-        let arguments: Vec<OsString> = arguments.into_iter().map(Into::into).collect();
+    pub fn of(arguments: &[OsString]) -> Result<Self, clap::Error> {
         // A negative number is the value of its option, whose own message says what is allowed.
         let option = |arg: clap::Arg| {
             let takes_value = arg.get_action().takes_values() && !arg.is_positional();
@@ -52,6 +49,16 @@ impl Arguments {
             command = command.long_version(version::long());
         }
         Self::from_arg_matches(&command.try_get_matches_from(arguments)?)
+    }
+}
+
+/// Returns the call for help on the command that a command line names, whose first argument is the name of the program.
+pub(crate) fn help_of(arguments: &[OsString]) -> String {
+    // No option that takes a value comes before the command.
+    let named = arguments.get(1).and_then(|word| word.to_str());
+    match named.filter(|&word| Arguments::command().find_subcommand(word).is_some()) {
+        Some(word) => format!("meaninfo {word} --help"),
+        None => "meaninfo --help".to_owned(),
     }
 }
 
@@ -96,7 +103,8 @@ impl Command {
     /// Runs the command.
     ///
     /// # Errors
-    /// Any refusal; then nothing has been printed, and no file touched.
+    /// Any refusal; then nothing has been printed, and no file touched, but by [`Command::Map`] with `--keep-going`, which
+    /// writes the rows of the maps that can be read and refuses the others.
     pub fn run(&self) -> Result<Status, Failure> {
         match self {
             Self::Map(arguments) => arguments.run(),
@@ -116,6 +124,11 @@ impl Command {
         }
     }
 }
+
+/// The exit statuses in words, for the help, the manual pages and the README.
+pub(crate) const EXIT_STATUS: &str = "0 is done; 1 done, and a check did not hold (limit: not converged; converge: a bound; paper: a \
+     claim; check: a test); 2 refused, with a line on standard error for each thing that is wrong, and nothing written but \
+     the rows of map --keep-going.";
 
 /// The end of a command that did what it was asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,7 +2,7 @@
 
 use super::Status;
 use crate::failure::Failure;
-use crate::output::Files;
+use crate::output::{Files, may_write};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use clap::Args;
@@ -31,7 +31,7 @@ pub struct Arguments {
     maps: Vec<PathBuf>,
     /// Write the page to this file.
     #[arg(long, value_name = "FILE.html")]
-    out: PathBuf,
+    output: PathBuf,
 }
 
 /// A file within the page.
@@ -44,6 +44,8 @@ struct Held {
 impl Arguments {
     pub(super) fn run(&self) -> Result<Status, Failure> {
         let mut files = Files::new();
+        files.read(self.maps.iter().cloned());
+        may_write(&files, [], Some(&self.output))?;
         let mut held = BTreeMap::new();
         let mut failures = Vec::new();
         for map in &self.maps {
@@ -61,7 +63,7 @@ impl Arguments {
             _ => return Err(Failure::Several(failures)),
         }
         let page = with_maps(PAGE, &in_page(&held)?)?;
-        files.add(&self.out, page.into_bytes());
+        files.add(&self.output, page.into_bytes());
         files.write()?;
         Ok(Status::Done)
     }

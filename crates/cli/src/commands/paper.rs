@@ -2,7 +2,7 @@
 
 use super::Status;
 use crate::failure::Failure;
-use crate::output::{Files, Writing};
+use crate::output::{Files, PAGE, Writing};
 use crate::paper::Paper;
 use clap::Args;
 use std::path::PathBuf;
@@ -23,12 +23,14 @@ impl Arguments {
         if let Some(folder) = &self.out {
             files.make_folder(folder)?;
         }
+        let page = self.out.as_ref().map(|folder| folder.join(PAGE));
+        self.writing.check(&files, page.as_deref())?;
         let paper = Paper::reproduce()?;
-        if let Some(folder) = &self.out {
+        if let (Some(folder), Some(page)) = (&self.out, &page) {
             for figure in &paper.figures {
                 files.add(&folder.join(figure.file), figure.picture.file().into_bytes());
             }
-            files.add(&folder.join("index.html"), paper.page().into_bytes());
+            files.add(page, paper.page().into_bytes());
         }
         self.writing.write(&paper, files)?;
         Ok(if paper.holds() { Status::Done } else { Status::CheckFailed })

@@ -102,6 +102,9 @@ impl Arguments {
         let (yaml, image, array) = (yaml?, image?, array?);
         let [log, truth, odometry] = [".log", ".true.tum", ".odometry.tum"].map(|ending| self.file(ending));
         let recorded = [log?, truth?, odometry?];
+        let mut outputs = Files::new();
+        let made = [&yaml, &image, &array].into_iter().chain(&recorded).map(PathBuf::as_path);
+        self.writing.check(&outputs, made)?;
         let room = self.room.room();
         let poses = self.poses.map_or(room.poses, |poses| poses as usize);
         self.check_work(poses)?;
@@ -120,7 +123,6 @@ impl Arguments {
             measures: Measures::of_grid(&map),
             read: Measures::of(&read.cells),
         };
-        let mut outputs = Files::new();
         outputs.add(&yaml, saved.yaml);
         outputs.add(&image, saved.image);
         let mut cells = Vec::new();

@@ -7,15 +7,17 @@ use crate::plots::{self, Drawing, Picture, SweepPlot};
 use crate::progress::Progress;
 use crate::reading::ReadingArguments;
 use clap::Args;
-use mean_information_files::{Disk, octree, read_map};
+use mean_information_files::bags::AnyMap;
+use mean_information_files::{Disk, Map, file_of, octree};
 use mean_information_report::octree::MeasuredDepths;
 use mean_information_report::sweep::Sweep;
 use std::path::PathBuf;
+use std::slice;
 
 /// The arguments of `meaninfo sweep`.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// A map, as for `meaninfo map`.
+    /// A map, as for `meaninfo map`; but no saved state, .pbstream, whose submaps are several grids.
     #[arg(value_name = "FILE")]
     map: PathBuf,
     /// Draw mean information and total entropy against cell size to this SVG or PNG file.
@@ -30,30 +32,45 @@ pub struct Arguments {
 impl Arguments {
     pub(super) fn run(&self) -> Result<Status, Failure> {
         let picture = self.plot.as_deref().map(Picture::by_name).transpose()?;
-        let name = self.map.display().to_string();
+        let reading = self.reading.of(slice::from_ref(&self.map), false)?;
         let mut files = Files::new();
+        files.read([file_of(&self.map).to_owned()]);
+        self.writing.check(&files, self.plot.as_deref())?;
+        let mut of_depths = |depths: MeasuredDepths| {
+            files.read(depths.files.iter().cloned());
+            Sweep::of_depths(self.map.display().to_string(), depths)
+        };
         let sweep = if octree::has_name(&self.map) {
-            files.read([self.map.clone()]);
-            Sweep::of_depths(name, MeasuredDepths::read(&Disk, &self.map, self.reading.clamp())?)
+            of_depths(MeasuredDepths::read(&Disk, &self.map, reading.clamp)?)
         } else {
-            let map = read_map(&self.map, &self.reading.options())?;
-            files.read(map.files.iter().cloned());
-            let mut progress = None;
-            let begin = |[done, all, k]: [usize; 3]| {
-                let progress = progress.get_or_insert_with(|| Progress::new(all));
-                if done > 0 {
-                    progress.done();
+            match reading.map(&self.map)? {
+                AnyMap::Octree(message) => {
+                    of_depths(MeasuredDepths::of_message(&self.map, &message, reading.clamp)?)
                 }
-                progress.begin(&format!("{} by {k} x {k} cells", self.map.display()));
-            };
-            Sweep::of(name, &map, begin).map_err(|error| {
-                Failure::file(&self.map, format!("{error}; give the map a smaller resolution"))
-            })?
+                AnyMap::Grid(map) => {
+                    files.read(map.files.iter().cloned());
+                    self.of_cells(&map)?
+                }
+            }
         };
         if let (Some(path), Some(picture)) = (&self.plot, picture) {
             files.add(path, SweepPlot::new(&sweep, &plots::title(&self.map)).draw(picture)?);
         }
         self.writing.write(&sweep, files)?;
         Ok(Status::Done)
+    }
+
+    /// Measures a map of cells in a plane.
+    fn of_cells(&self, map: &Map) -> Result<Sweep, Failure> {
+        let mut progress = None;
+        let begin = |[done, all, k]: [usize; 3]| {
+            let progress = progress.get_or_insert_with(|| Progress::new(all));
+            if done > 0 {
+                progress.done();
+            }
+            progress.begin(&format!("{} by {k} x {k} cells", self.map.display()));
+        };
+        Sweep::of(self.map.display().to_string(), map, begin)
+            .map_err(|error| Failure::file(&self.map, format!("{error}; give the map a smaller resolution")))
     }
 }

@@ -4,12 +4,12 @@ use super::Status;
 use super::sensor::{Sensor, mount};
 use crate::failure::Failure;
 use crate::metres::positive;
-use crate::output::{Files, Writing};
+use crate::output::{Files, PAGE, Writing};
 use crate::plots::{self, Picture};
 use crate::progress::Progress;
 use crate::trajectory::{
-    Candidate, Common, Comparison, Measured, Pictures, Recorded, Refused, Setup, Used, Wanted, far_pose,
-    measure_all,
+    Candidate, Common, Comparison, Laser, Measured, Pictures, Recorded, Refused, Setup, Used, Wanted,
+    far_pose, measure_all,
 };
 use clap::Args;
 use mean_information::Error;
@@ -57,7 +57,8 @@ pub struct Arguments {
     /// No number changes.
     #[arg(long, value_name = "N")]
     threads: Option<NonZero<usize>>,
-    /// Refuse a map of more cells than this.
+    /// Refuse a map of more cells than this: two poses some hundred metres apart make a large one of any log, 2.7 GB for each
+    /// thread at the default.
     #[arg(long, value_name = "N", default_value_t = ScanMap::<f64>::MAX_CELLS)]
     max_cells: u64,
     #[command(flatten)]
@@ -103,14 +104,18 @@ impl Arguments {
         if let Some(folder) = &self.out {
             files.make_folder(folder)?;
         }
+        files.read(self.poses.iter().chain([&self.scans]).cloned());
+        let page = self.out.as_ref().map(|folder| folder.join(PAGE));
+        let pictures = [&self.series, &self.maps, &self.heat_map, &self.conflicts, &page];
+        self.writing.check(&files, pictures.into_iter().filter_map(|file| file.as_deref()))?;
         let log = self.log()?;
-        let (mount, mount_in_words) = self.mount(&log)?;
-        let candidates = self.candidates(&log, &mount)?;
+        let mount = self.mount(&log)?;
+        let candidates = self.candidates(&log, &mount.0)?;
         let common = Common::of(&log.scans, &candidates, self.association.max_gap, setup.no_return)?;
         if common.scans.is_empty() {
             return Err(self.nothing_in_common(&log, &candidates));
         }
-        files.read(log.files.iter().cloned().chain(self.poses.iter().cloned()));
+        files.read(log.files.iter().cloned());
         let is_page = self.out.is_some();
         let wanted = Wanted {
             series: is_page || series.is_some(),
@@ -124,7 +129,7 @@ impl Arguments {
             scans_used: common.scans.len(),
             beams: common.beams,
             setup,
-            mount: mount_in_words,
+            laser: Laser::new(mount, common.scans.iter().copied()),
             warnings: in_words(&log.warnings),
         };
         let comparison = Comparison::new(used, &candidates, &common, &measured);
@@ -141,8 +146,8 @@ impl Arguments {
         if let Some(path) = &self.conflicts {
             files.add(path, pictures.conflicts()?);
         }
-        if let Some(folder) = &self.out {
-            files.add(&folder.join("index.html"), pictures.page()?.into_bytes());
+        if let Some(page) = &page {
+            files.add(page, pictures.page()?.into_bytes());
         }
         self.writing.write(&comparison, files)?;
         Ok(Status::Done)

@@ -2,7 +2,7 @@
 
 use super::steps::Row;
 use crate::output::{Number, Record, Report, Value, table, with_notes};
-use crate::trajectory::Setup;
+use crate::trajectory::{Laser, Setup};
 use mean_information_report::measures::Measures;
 
 /// The log that rows were made of, and how.
@@ -20,8 +20,8 @@ pub struct Made {
     pub gain: f64,
     /// The setup of the maps.
     pub setup: Setup,
-    /// The laser on the robot, in words.
-    pub mount: String,
+    /// The laser.
+    pub laser: Laser,
     /// The warnings of the log.
     pub warnings: Vec<String>,
 }
@@ -38,10 +38,11 @@ pub struct FilterReport {
 impl Made {
     /// Says what the rows were made of, in words.
     pub fn in_words(&self) -> [String; 2] {
-        let Self { steps, resamplings, particles, gain, setup, mount, .. } = self;
+        let Self { steps, resamplings, particles, gain, setup, laser, .. } = self;
         [
             format!(
-                "{steps} scans, {particles} particles, {resamplings} resamplings; weights by a gain of {gain}; {mount}"
+                "{steps} scans, {particles} particles, {resamplings} resamplings; weights by a gain of {gain}; {}",
+                laser.in_words
             ),
             format!(
                 "cells of {} m; sensor {}; readings up to {} nats",
@@ -58,7 +59,7 @@ impl FilterReport {
         let setup = &self.made.setup;
         let of_row = expected.warning();
         let of_log = if index == 0 { &*self.made.warnings } else { &[] };
-        Record(vec![
+        let mut entries = vec![
             ("step", Value::Count(*step as u64)),
             ("time_s", Value::Given(Some(*time))),
             ("effective_particles", Value::Computed(Some(Number::Double(*effective)))),
@@ -71,13 +72,16 @@ impl FilterReport {
             ("mean_of_particles", Value::Computed(*mean_of_particles)),
             ("particles", Value::Count(self.made.particles as u64)),
             ("resolution_m", Value::Given(Some(setup.resolution))),
-            ("sensor", Value::Text(setup.sensor.to_string())),
-            ("reading_limit_nats", Value::Given(Some(setup.reading_limit))),
+        ];
+        entries.extend(setup.entries());
+        entries.extend(self.made.laser.entries());
+        entries.extend([
+            ("mount", Value::Text(self.made.laser.in_words.clone())),
             ("gain", Value::Given(Some(self.made.gain))),
-            ("mount", Value::Text(self.made.mount.clone())),
             ("meaningful", Value::Flag(expected.not_meaningful.is_none())),
             ("warnings", Value::Texts(of_log.iter().cloned().chain(of_row).collect())),
-        ])
+        ]);
+        Record(entries)
     }
 }
 

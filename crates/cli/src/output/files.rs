@@ -32,14 +32,13 @@ impl Files {
     /// A name that something else has, or in a folder that does not exist.
     pub fn make_folder(&mut self, folder: &Path) -> Result<(), Failure> {
         let problem = |message: &str| Err(Failure::file(folder, message));
-        let parent = folder.parent().filter(|parent| !parent.as_os_str().is_empty());
         if folder.is_dir() {
             return Ok(());
         }
         if fs::symlink_metadata(folder).is_ok() {
             return problem("is not a folder; give the name of one");
         }
-        if !parent.unwrap_or(Path::new(".")).is_dir() {
+        if !within(folder.parent()).is_dir() {
             return problem("is to lie in a folder that does not exist; make that first");
         }
         self.folder = Some(folder.to_owned());
@@ -65,12 +64,22 @@ impl Files {
         })
     }
 
-    /// Refuses this file before the work that is to be written to it is done.
+    /// Refuses files before the work that is to be written to them is done.
     ///
     /// # Errors
-    /// Those of [`Files::write`] that do not depend on what is written; standard output by a name is none.
-    pub fn may_write(&self, path: &Path) -> Result<(), Failure> {
-        if standard_output::is(path) { Ok(()) } else { self.target(path).map(drop) }
+    /// Those of [`Files::write`] that do not depend on what is written, also of the files in the folder that is to be made.
+    pub fn may_write<'a>(&self, paths: impl IntoIterator<Item = &'a Path>) -> Result<(), Failure> {
+        let mut targets = Vec::new();
+        for path in paths {
+            let is_in_new = self.folder.is_some() && path.parent() == self.folder.as_deref();
+            let target = if is_in_new { path.to_owned() } else { self.target(path)? };
+            refuse_twice(path, &target, &targets)?;
+            let folder = if is_in_new { path.parent().and_then(Path::parent) } else { target.parent() };
+            // Permissions alone do not tell: the file system may be one that is not written to.
+            Builder::new().tempfile_in(within(folder)).map_err(|error| not_written(path, &error))?;
+            targets.push(target);
+        }
+        Ok(())
     }
 
     /// The place that `path` means, which is none that was read.
@@ -83,30 +92,42 @@ impl Files {
     }
 
     fn write_all(&self) -> Result<(), Failure> {
-        let mut staged: Vec<(PathBuf, TempPath)> = Vec::new();
+        let (mut targets, mut staged): (Vec<PathBuf>, Vec<TempPath>) = Default::default();
         for (path, contents) in &self.outputs {
-            let problem = |message: String| Failure::file(path, message);
             let target = self.target(path)?;
-            if staged.iter().any(|(other, _)| *other == target) {
-                return Err(problem("is to be written twice; give two different names".into()));
-            }
-            let temporary =
-                stage(&target, contents).map_err(|e| problem(format!("cannot be written: {e}")))?;
-            staged.push((target, temporary));
+            refuse_twice(path, &target, &targets)?;
+            staged.push(stage(&target, contents).map_err(|error| not_written(path, &error))?);
+            targets.push(target);
         }
-        for (target, temporary) in staged {
-            temporary
-                .persist(&target)
-                .map_err(|e| Failure::file(&target, format!("cannot be written: {}", e.error)))?;
+        for (target, temporary) in targets.iter().zip(staged) {
+            temporary.persist(target).map_err(|error| not_written(target, &error.error))?;
         }
         Ok(())
     }
 }
 
+/// Creates the failure of a file that the system refuses to write.
+fn not_written(path: &Path, error: &io::Error) -> Failure {
+    Failure::file(path, format!("cannot be written: {error}"))
+}
+
+/// Refuses a file that means the place of another.
+fn refuse_twice(path: &Path, target: &PathBuf, others: &[PathBuf]) -> Result<(), Failure> {
+    if others.contains(target) {
+        return Err(Failure::file(path, "is to be written twice; give two different names"));
+    }
+    Ok(())
+}
+
+/// Returns a folder that has a name: no name is the folder that the process is in.
+fn within(folder: Option<&Path>) -> &Path {
+    folder.filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
 /// The place that `path` means, links followed; what stands there can be replaced.
 fn target(path: &Path) -> Result<PathBuf, Failure> {
     let problem = |message: &str| Failure::file(path, message);
-    let failed = |error: io::Error| problem(&format!("cannot be written: {error}"));
+    let failed = |error: io::Error| not_written(path, &error);
     if standard_output::is(path) || is_descriptor(path) {
         return Err(problem("is a stream of this process; give the name of a file to write to"));
     }
@@ -131,8 +152,7 @@ fn target(path: &Path) -> Result<PathBuf, Failure> {
             let whole = path.as_os_str().as_encoded_bytes();
             let name = path.file_name().filter(|name| whole.ends_with(name.as_encoded_bytes()));
             let name = name.ok_or_else(|| problem("is not the name of a file; give one to write to"))?;
-            let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-            let folder = fs::canonicalize(folder.unwrap_or(Path::new(".")))
+            let folder = fs::canonicalize(within(path.parent()))
                 .map_err(|error| problem(&format!("its folder cannot be written to: {error}")))?;
             Ok(folder.join(name))
         }
@@ -156,13 +176,12 @@ fn is_descriptor(path: &Path) -> bool {
 
 /// Writes the contents to a temporary file in the target's folder. Dropping it removes it.
 fn stage(target: &Path, contents: &[u8]) -> io::Result<TempPath> {
-    let folder = target.parent().unwrap_or(Path::new("."));
     let existing = fs::metadata(target).ok();
     let mut builder = Builder::new();
     if existing.is_none() {
         ordinary_permissions(&mut builder);
     }
-    let mut temporary = builder.tempfile_in(folder)?;
+    let mut temporary = builder.tempfile_in(within(target.parent()))?;
     temporary.write_all(contents)?;
     if let Some(existing) = existing {
         temporary.as_file().set_permissions(existing.permissions())?;

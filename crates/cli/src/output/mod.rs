@@ -11,9 +11,9 @@ mod xml;
 pub use files::Files;
 pub(crate) use mean_information_report::number::{decimal_exponent, short};
 pub use mean_information_report::{Number, Record, Value, record};
-pub(crate) use page::{book, page};
+pub(crate) use page::{PAGE, book, page};
 pub use table::{folded, table, text_table, with_notes, wrapped};
-pub use writing::{Writing, write_text};
+pub use writing::{Writing, may_write, write_text};
 pub(crate) use xml::escaped;
 
 use clap::ValueEnum;

@@ -14,6 +14,9 @@ pub(crate) fn book(chapter: &str, text: &str) -> String {
     )
 }
 
+/// The name of the page in the folder that a command writes.
+pub(crate) const PAGE: &str = "index.html";
+
 /// Returns the page of this title, a text, and this body, which is HTML.
 pub(crate) fn page(title: &str, body: &str) -> String {
     let title = escaped(title);

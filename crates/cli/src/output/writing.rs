@@ -18,6 +18,19 @@ pub struct Writing {
 }
 
 impl Writing {
+    /// Refuses the file of the result, and `others` beside it, that cannot be written whatever is in them: before the work for
+    /// them is done. `files` knows what is read.
+    ///
+    /// # Errors
+    /// As [`may_write`].
+    pub fn check<'a>(
+        &'a self,
+        files: &Files,
+        others: impl IntoIterator<Item = &'a Path>,
+    ) -> Result<(), Failure> {
+        may_write(files, others, self.output.as_deref())
+    }
+
     /// Writes `report` where it was asked for, together with the other `files` of the command: first the files, all or
     /// none, then standard output.
     ///
@@ -27,6 +40,18 @@ impl Writing {
     pub fn write(&self, report: &impl Report, files: Files) -> Result<(), Failure> {
         write_text(&report.text(self.format), self.output.as_deref(), files)
     }
+}
+
+/// Refuses the file of a result, and `others` beside it, that cannot be written whatever is in them.
+///
+/// # Errors
+/// Those of [`Files::may_write`]; standard output by a name is none for a result.
+pub fn may_write<'a>(
+    files: &Files,
+    others: impl IntoIterator<Item = &'a Path>,
+    output: Option<&'a Path>,
+) -> Result<(), Failure> {
+    files.may_write(others.into_iter().chain(output.filter(|path| !standard_output::is(path))))
 }
 
 /// Writes a result to a file or to standard output, after the other `files`.

@@ -120,13 +120,13 @@ impl Comparison {
 
     /// Says what the maps were made of, in words.
     pub fn made_of(&self) -> [String; 2] {
-        let Used { scans, scans_used, beams, setup, mount, .. } = &self.used;
+        let Used { scans, scans_used, beams, setup, laser, .. } = &self.used;
         let errors = match BLOCKS.min(*scans_used) {
             1 => "no standard errors, as there is one scan alone".to_owned(),
             parts => format!("standard errors by leaving out each of {parts} parts of the log"),
         };
         [
-            format!("{scans_used} of {scans} scans with {beams} beams; {mount}"),
+            format!("{scans_used} of {scans} scans with {beams} beams; {}", laser.in_words),
             format!(
                 "cells of {} m; sensor {}; readings up to {} nats; {errors}",
                 setup.resolution, setup.sensor, setup.reading_limit,
@@ -144,11 +144,10 @@ impl Row {
             ("scans_used", Value::Count(used.scans_used as u64)),
             ("scans_without_pose", Value::Count(self.scans_without_pose as u64)),
             ("beams", Value::Count(used.beams)),
-            ("sensor", Value::Text(used.setup.sensor.to_string())),
-            resolution,
-            width,
-            height,
         ];
+        entries.extend(used.setup.entries());
+        entries.extend(used.laser.entries());
+        entries.extend([resolution, width, height]);
         entries.extend(measures);
         let number = |of: fn(&Difference) -> f64| {
             Value::Computed(self.difference.as_ref().map(|difference| Number::Double(of(difference))))
@@ -163,6 +162,7 @@ impl Row {
                 "contradictions",
                 Value::Records(self.contradictions.iter().map(Contradiction::record).collect()),
             ),
+            ("meaningful", Value::Flag(self.measures.not_meaningful.is_none())),
             ("verdict", verdict.map_or(Value::Given(None), |verdict| Value::Text(verdict.to_owned()))),
             ("warnings", Value::Texts(used.warnings.iter().chain(&self.warnings).cloned().collect())),
         ]);

@@ -1,6 +1,7 @@
 //! The row of a trajectory, and the scans that all rows share.
 
 use super::contradictions::Contradiction;
+use super::laser::Laser;
 use super::parting::Parting;
 use super::setup::Setup;
 use mean_information::scan::Difference;
@@ -19,8 +20,8 @@ pub struct Used {
     pub beams: u64,
     /// The setup of the maps.
     pub setup: Setup,
-    /// The laser on the robot, in words.
-    pub mount: String,
+    /// The laser.
+    pub laser: Laser,
     /// The warnings of the log.
     pub warnings: Vec<String>,
 }

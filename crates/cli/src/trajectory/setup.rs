@@ -1,6 +1,8 @@
 //! How the map of a trajectory is made of its scans.
 
 use super::sensor::SensorModel;
+use crate::output::Value;
+use clap::ValueEnum;
 use mean_information::Error;
 use mean_information::scan::{Pose, Scan, ScanMap};
 use mean_information_files::scans::{NoReturn, RangeScan};
@@ -30,6 +32,26 @@ pub struct Refused {
 }
 
 impl Setup {
+    /// Returns the entries of a record: the sensor in words, and its numbers, of which each model has its own.
+    pub fn entries(&self) -> [(&'static str, Value); 7] {
+        let [free, occupied, thickness, sigma] = match self.sensor {
+            SensorModel::Stepped { free, occupied, thickness } => {
+                [Some(free), Some(occupied), Some(thickness), None]
+            }
+            SensorModel::Gaussian { sigma } => [None, None, None, Some(sigma)],
+        };
+        let no_return = self.no_return.to_possible_value().map(|word| word.get_name().to_owned());
+        [
+            ("sensor", Value::Text(self.sensor.to_string())),
+            ("sensor_free", Value::Given(free)),
+            ("sensor_occupied", Value::Given(occupied)),
+            ("thickness_m", Value::Given(thickness)),
+            ("sigma_m", Value::Given(sigma)),
+            ("reading_limit_nats", Value::Given(Some(self.reading_limit))),
+            ("no_return", Value::Text(no_return.unwrap_or_default())),
+        ]
+    }
+
     /// Creates an empty map that keeps agreement.
     ///
     /// # Errors

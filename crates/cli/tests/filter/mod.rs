@@ -90,6 +90,16 @@ fn rows_are_those_of_maps_that_share_nothing() {
 
     assert_eq!((rows[0]["gain"].as_f64(), rows[0]["reading_limit_nats"].as_f64()), (Some(2.0), Some(3.5)));
     assert!(rows[0]["mount"].as_str().unwrap().starts_with("poses are taken for those of the laser"));
+    let more = ["--sensor", "gaussian", "--sigma", "0.1", "--no-return", "free", "--max-range", "9"];
+    let arguments = [&[name, "--resolution", "0.3", "--mount", "0.25,-0.5,0.125", "--every", "6"][..], &more];
+    let rows_of_others = self::rows(&arguments.concat());
+    let keys = ["mount_x_m", "mount_y_m", "mount_yaw_rad", "sigma_m", "max_range_m"];
+    let numbers = keys.map(|key| rows_of_others[0][key].as_f64().unwrap());
+    assert_eq!(numbers, [0.25, -0.5, 0.125, 0.1, 9.0]);
+    assert_eq!(
+        (&rows_of_others[0]["sensor_free"], &rows_of_others[0]["no_return"]),
+        (&Value::Null, &"free".into())
+    );
 
     // Every second, and the last: a resampling after a step without a row stands in the row after it.
     let some = self::rows(&[name, "--resolution", "0.3", "--every", "2"]);

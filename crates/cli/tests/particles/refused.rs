@@ -61,7 +61,7 @@ fn what_cannot_be_read_is_refused_and_nothing_written() {
     bad[8 + 4 + 3] = 1.5;
     let bad = npy("<f8", false, &[3, 2, 4], &doubles(&bad));
     says(refused(bad, weights(&WEIGHTS), &[]), &["p.npy", "particle 1: cell at row 1, column 3 is 1.5"]);
-    says(refused(stack(), weights(&WEIGHTS), &["--encoding", "mrpt"]), &["p.npy", "mrpt needs int8"]);
+    says(refused(stack(), weights(&WEIGHTS), &["--encoding", "mrpt"]), &["p.npy", "mrpt needs integers"]);
     says(
         refused(stack(), weights(&WEIGHTS), &["--max-cells", "23"]),
         &["p.npy: claims 3 particles of 4 x 2 cells, together more than the limit of 23; raise it"],

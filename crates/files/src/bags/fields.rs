@@ -2,6 +2,7 @@
 
 use super::delivery::{Encoding, Message};
 use crate::error::{Error, ErrorKind, Place};
+use crate::text::shortened;
 use crate::trajectory::{Quaternion, Rigid, seconds};
 
 /// The fields of a message that are left.
@@ -152,7 +153,7 @@ pub(super) struct Header<'a> {
 /// Takes bytes as text.
 pub(super) fn utf8(bytes: &[u8]) -> Result<&str, Error> {
     str::from_utf8(bytes).map_err(|error| {
-        let text = String::from_utf8_lossy(bytes).into_owned();
+        let text = shortened(bytes);
         let message = format!("has a text that is not UTF-8: {text}");
         Error::new(ErrorKind::Format, message).with_value(text).caused_by(error)
     })

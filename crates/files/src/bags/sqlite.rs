@@ -3,6 +3,7 @@
 use super::delivery::{Delivery, Encoding, Topic};
 use crate::error::{Error, ErrorKind};
 use crate::warning::Warning;
+use rusqlite::config::DbConfig;
 use rusqlite::limits::Limit;
 use rusqlite::{Connection, ErrorCode, OpenFlags, Row, Statement};
 use std::path::Path;
@@ -16,6 +17,19 @@ const TABLES: [(&str, &[&str]); 2] = [
 const BESIDE_MESSAGE: u64 = 1 << 10;
 /// The most bytes of SQL in the file.
 const MOST_SQL: i32 = 1 << 20;
+
+/// The topics as they stand in the file, past any index.
+const QUERY_TOPICS: &str =
+    "SELECT id, name, type, serialization_format FROM topics NOT INDEXED ORDER BY rowid";
+
+/// Returns the query of the messages of some topics as they stand in the file, past any index: rosbag2's `id` is the number of
+/// a row. To sort them SQLite would write all of them to a temporary file.
+fn query_of_messages(topics: impl Iterator<Item = u64>) -> String {
+    let topics = topics.map(|id| id.to_string()).collect::<Vec<_>>().join(", ");
+    format!(
+        "SELECT topic_id, timestamp, data FROM messages NOT INDEXED WHERE topic_id IN ({topics}) ORDER BY rowid"
+    )
+}
 
 /// Says that nobody writes the file, so that SQLite puts none beside it.
 const IMMUTABLE: &str = "?immutable=1";
@@ -41,21 +55,19 @@ pub(super) fn read_file(path: &Path, delivery: &mut Delivery<'_>) -> Result<Vec<
     for (limit, most) in limits {
         bag.set_limit(limit, most).map_err(refused)?;
     }
+    // The file is of a stranger: nothing in it is run, and its pages are checked.
+    bag.set_db_config(DbConfig::SQLITE_DBCONFIG_DEFENSIVE, true).map_err(refused)?;
+    bag.set_db_config(DbConfig::SQLITE_DBCONFIG_TRUSTED_SCHEMA, false).map_err(refused)?;
+    bag.pragma_update(None, "cell_size_check", true).map_err(refused)?;
     check_tables(&bag)?;
-    let mut topics = bag
-        .prepare("SELECT id, name, type, serialization_format FROM topics ORDER BY id")
-        .map_err(refused)?;
+    let mut topics = bag.prepare(QUERY_TOPICS).map_err(refused)?;
     declare(&mut topics, delivery)?;
-    let wanted: Vec<String> = delivery.wanted().map(|id| id.to_string()).collect();
-    let query = format!(
-        "SELECT topic_id, timestamp, data FROM messages WHERE topic_id IN ({}) ORDER BY id",
-        wanted.join(", ")
-    );
-    let mut messages = bag.prepare(&query).map_err(refused)?;
+    let mut messages = bag.prepare(&query_of_messages(delivery.wanted())).map_err(refused)?;
     hand_over(&mut messages, path, delivery)
 }
 
-/// Refuses tables that are views, virtual, or have columns which SQLite computes: those could hold what the file does not.
+/// Refuses tables that are views, virtual, or have columns which SQLite computes: those could hold what the file does not. And
+/// those of which a column takes the name of the numbers of rows, by which they come.
 fn check_tables(bag: &Connection) -> Result<(), Error> {
     for (table, columns) in TABLES {
         let is_table = "SELECT type = 'table' AND rootpage > 0 FROM sqlite_master WHERE lower(name) = ?1";
@@ -66,13 +78,23 @@ fn check_tables(bag: &Connection) -> Result<(), Error> {
                 Error::new(ErrorKind::Unsupported, words).allowing("; allowed are ", "rosbag2's tables")
             );
         }
-        let query = "SELECT count(*) FROM pragma_table_xinfo(?1) WHERE hidden <> 0";
-        let computed: i64 = bag.query_row(query, [table], |row| row.get(0)).map_err(refused)?;
-        if computed > 0 {
-            let words = format!("computes columns of its table {table}");
-            return Err(Error::new(ErrorKind::Unsupported, words)
-                .with_value(computed.to_string())
-                .allowing("; allowed are ", format!("columns that are stored: {}", columns.join(", "))));
+        let count = |condition: &str| {
+            let query = format!("SELECT count(*) FROM pragma_table_xinfo(?1) WHERE {condition}");
+            bag.query_row(&query, [table], |row| row.get::<_, i64>(0)).map_err(refused)
+        };
+        let refused = |count: i64, words: &str| {
+            let words = format!("{words} its table {table}");
+            let refused = Error::new(ErrorKind::Unsupported, words).with_value(count.to_string());
+            Err(refused
+                .allowing("; allowed are ", format!("columns that are stored: {}", columns.join(", "))))
+        };
+        match count("hidden <> 0")? {
+            0 => {}
+            computed => return refused(computed, "computes columns of"),
+        }
+        match count("lower(name) = 'rowid'")? {
+            0 => {}
+            named => return refused(named, "has a column rowid in"),
         }
     }
     Ok(())
@@ -153,4 +175,24 @@ fn uri(path: &Path) -> Result<String, Error> {
     };
     let escaped = text.replace('%', "%25").replace('?', "%3f").replace('#', "%23");
     Ok(format!("file:{escaped}{IMMUTABLE}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_is_sorted() {
+        let bag = Connection::open_in_memory().unwrap();
+        let tables = "CREATE TABLE topics(id INTEGER, name TEXT, type TEXT, serialization_format TEXT);
+            CREATE TABLE messages(id INTEGER, topic_id INTEGER, timestamp INTEGER, data BLOB);
+            CREATE INDEX by_name ON topics(name, id); CREATE INDEX by_topic ON messages(topic_id, id);";
+        bag.execute_batch(tables).unwrap();
+        for query in [QUERY_TOPICS, &query_of_messages([3, 7].into_iter())] {
+            let mut plan = bag.prepare(&format!("EXPLAIN QUERY PLAN {query}")).unwrap();
+            let steps = plan.query_map([], |row| row.get::<_, String>(3)).unwrap();
+            let steps: Vec<_> = steps.map(Result::unwrap).collect();
+            assert!(matches!(&*steps, [one] if one.starts_with("SCAN ")), "{query}: {steps:?}");
+        }
+    }
 }

@@ -3,7 +3,8 @@
 use super::delivery::Topic;
 use super::grid::GridMessage;
 use super::octomap::OCTOMAP;
-use crate::error::{Error, ErrorKind};
+use super::refusals::choice;
+use crate::error::Error;
 use std::collections::BTreeSet;
 
 /// The topic of a bag whose maps are wanted.
@@ -101,8 +102,8 @@ impl MapTopics {
     /// Returns the topic of type `nav_msgs/OccupancyGrid` that is meant.
     ///
     /// # Errors
-    /// An [`Error`] of kind [`ErrorKind::Choice`] that lists the topics of maps if none or several may be meant, or the one
-    /// named carries costmaps and these are not allowed.
+    /// An [`Error`] of kind [`ErrorKind::Choice`](crate::ErrorKind::Choice) that lists the topics of maps if none or several
+    /// may be meant, or the one named carries costmaps and these are not allowed; at the option that mends it.
     pub(super) fn chosen_grid(&self) -> Result<&str, Error> {
         chosen(&self.grids, &self.wanted)
     }
@@ -129,25 +130,23 @@ impl MapTopics {
 
 /// Chooses the topic that is meant among those of maps.
 fn chosen<'a>(topics: &'a BTreeSet<String>, wanted: &MapTopic) -> Result<&'a str, Error> {
-    let listed = topics.iter().map(String::as_str).collect::<Vec<_>>().join(", ");
-    let listed = if listed.is_empty() { "none".to_owned() } else { listed };
-    let refuse = |words: String| {
-        Err(Error::new(ErrorKind::Choice, words).allowing("; topics of its maps are: ", listed.clone()))
-    };
+    let refuse =
+        |option, words: String| Err(choice(option, words, "; topics of its maps are: ", topics.iter()));
     if let Some(name) = &wanted.name {
         return match topics.get(name) {
-            None => refuse(format!("has no topic {name} of type {}", GridMessage::KIND)),
-            Some(_) if is_costmap(name) && !wanted.costmaps => refuse(format!(
-                "{name} carries costmaps by its name, whose cells are costs and not probabilities of being occupied"
-            )),
+            None => refuse("topic", format!("has no topic {name} of type {}", GridMessage::KIND)),
+            Some(_) if is_costmap(name) && !wanted.costmaps => {
+                let words = "carries costmaps by its name, whose cells are costs and not probabilities of being occupied";
+                refuse("costmaps", format!("{name} {words}"))
+            }
             Some(name) => Ok(name),
         };
     }
     let maps: Vec<&String> = topics.iter().filter(|name| !is_costmap(name)).collect();
     match *maps {
         [name] => Ok(name),
-        [] => refuse("has no topic of maps, other than costmaps".to_owned()),
-        _ => refuse("has several topics of maps".to_owned()),
+        [] => refuse("costmaps", "has no topic of maps, other than costmaps".to_owned()),
+        _ => refuse("topic", "has several topics of maps".to_owned()),
     }
 }
 

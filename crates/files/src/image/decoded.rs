@@ -1,14 +1,15 @@
 //! Images that the crate `image` decodes whole: BMP, PPM, PBM, JPEG, TIFF, GIF, WebP, TGA.
 //!
-//! Their pixels are in memory at once, so that the limit on cells that are kept holds; and a file that claims thousands of
-//! times what it holds is refused before memory is taken. Of a file with several images the first is read, as by the
-//! loaders.
+//! Their pixels are in memory at once, so that the limit on cells that are kept holds, and one on their bytes; and a file that
+//! claims thousands of times what it holds is refused before memory is taken. Of a file with several images the first is
+//! read, as by the loaders.
 
 use super::bmp::Bmp;
 use super::bytes::read_at;
 use super::ending;
-use super::layout::{Channels, Colours, Layout, Rest, levels};
+use super::layout::{Channels, Colours, Layout, Rest};
 use super::palette::Palette;
+use super::pixels::Pixels;
 use crate::error::{Error, ErrorKind};
 use crate::size::{CHUNK, Size};
 use image::codecs::pnm::PnmDecoder;
@@ -23,8 +24,14 @@ impl<R: BufRead + Seek> Input for R {}
 
 /// The bytes of pixels that any file may claim.
 const ANY_CLAIM: u64 = 64 << 20;
-/// The most bytes of pixels for a byte of the file beyond that: no format here compresses a uniform image more.
+/// The most bytes of pixels for a byte of the file beyond that. Lossless WebP, GIF, and TIFF of one bit in deflate compress a
+/// uniform image more: what is refused may be valid, and a claim is all that tells it from one that is not.
 const MOST_COMPRESSED: u64 = 4096;
+/// The most bytes of decoded pixels for each cell of the limit: colours with alpha, of 8 bits.
+const BYTES_PER_CELL: u64 = 4;
+/// The most that a decoder takes, as a multiple of the pixels: these, and beside them twice as much, which a progressive JPEG
+/// takes for its coefficients; a TIFF or a WebP is there once more.
+const WHILE_DECODED: u64 = 3;
 
 /// An image that was decoded.
 pub(crate) struct Decoded {
@@ -69,7 +76,7 @@ impl Decoded {
             (_, Some(palette)) => {
                 let mut numbered = BufReader::new(palette.numbered(&mut *input));
                 let mut pixels = decode_as(&mut numbered, format, limit)?;
-                pixels.keep_first_channel();
+                pixels.keep_first_channel()?;
                 pixels
             }
             (ImageFormat::Pnm, None) => {
@@ -77,7 +84,7 @@ impl Decoded {
                 let bitmap = decoder.header().as_bitmap().is_some();
                 let largest = if bitmap { 255 } else { decoder.header().maximal_sample() };
                 let mut pixels = decode(decoder, limit)?;
-                pixels.scale(largest, colours);
+                pixels.scale(largest, colours)?;
                 if bitmap && colours == Colours::Sdl {
                     // To SDL a bitmap has a palette: white, then black.
                     pixels.bytes.iter_mut().for_each(|sample| *sample = u8::from(*sample == 0));
@@ -89,14 +96,14 @@ impl Decoded {
         };
         // The decoder gives every GIF an alpha.
         if format == ImageFormat::Gif {
-            pixels.drop_opaque_alpha();
+            pixels.drop_opaque_alpha()?;
         }
         let head = if format == ImageFormat::Bmp { Bmp::read(&mut input)? } else { None };
         if let Some(head) = &head {
             let has_alpha = if colours == Colours::Sdl { head.bits == 32 } else { head.has_plain_alpha() };
             if has_alpha && pixels.channels == Channels::Rgb {
                 let alpha = head.fourth_bytes(&mut input)?;
-                pixels.set_alpha(&alpha);
+                pixels.set_alpha(&alpha)?;
             }
         }
         let goes_on = match format {
@@ -114,10 +121,10 @@ impl Decoded {
         let rest = if goes_on { Rest::More } else { Rest::Nothing };
         let white = if pixels.deep { u16::MAX } else { 255 };
         if pixels.deep {
-            pixels.bring_down(colours);
+            pixels.bring_down(colours)?;
         }
         if colours == Colours::Sdl {
-            pixels.lay_out_as_sdl(format);
+            pixels.lay_out_as_sdl(format)?;
         }
         let Pixels { size, channels, deep, bytes } = pixels;
         let layout = Layout { size, channels, max: if deep { white } else { 255 }, white };
@@ -163,101 +170,6 @@ fn quirk(
     })
 }
 
-/// Pixels as the decoder gives them: samples of 16 bits in the machine's own order.
-struct Pixels {
-    size: Size,
-    channels: Channels,
-    deep: bool,
-    bytes: Vec<u8>,
-}
-
-impl Pixels {
-    /// Brings samples up to `largest`, which the decoder scaled and rounded, to the whole range as the loader's library does:
-    /// SDL_image rounds down to 8 bits, GraphicsMagick has 16.
-    fn scale(&mut self, largest: u32, colours: Colours) {
-        let white = if self.deep { 65535 } else { 255 };
-        if largest == white || largest == 0 {
-            return;
-        }
-        let own =
-            |sample: u32| (u64::from(sample) * u64::from(largest) + u64::from(white / 2)) / u64::from(white);
-        let samples: Vec<u64> = if self.deep {
-            self.bytes.as_chunks().0.iter().map(|&sample| own(u16::from_ne_bytes(sample).into())).collect()
-        } else {
-            self.bytes.iter().map(|&sample| own(sample.into())).collect()
-        };
-        let largest = u64::from(largest);
-        if colours == Colours::Sdl && !self.deep {
-            self.bytes = samples.iter().map(|sample| (sample * 255 / largest) as u8).collect();
-        } else {
-            let deep = samples.iter().map(|sample| ((sample * 65535 + largest / 2) / largest) as u16);
-            self.bytes = deep.flat_map(u16::to_ne_bytes).collect();
-            self.deep = true;
-        }
-    }
-
-    /// Brings samples of 16 bits to the order, high byte first, or to the 8 bits, that the loader's library has.
-    fn bring_down(&mut self, colours: Colours) {
-        let high_first = self.bytes.as_chunks().0.iter().map(|&s| u16::from_ne_bytes(s).to_be_bytes());
-        self.deep = matches!(colours, Colours::Meant | Colours::Magick);
-        self.bytes = match colours {
-            Colours::Meant | Colours::Magick => high_first.flatten().collect(),
-            Colours::Sdl => high_first.map(|[high, _]| high).collect(),
-            Colours::MagickLevels => {
-                let pixels: Vec<u8> = high_first.flatten().collect();
-                let mut own = Vec::new();
-                self.channels = levels(self.channels, &pixels, &mut own);
-                own
-            }
-        };
-    }
-
-    /// Lays out samples of 8 bits as on SDL's surfaces, of which ROS 1 averages the bytes and takes the last for alpha.
-    fn lay_out_as_sdl(&mut self, format: ImageFormat) {
-        match (format, self.channels) {
-            // Blue comes first.
-            (ImageFormat::Bmp | ImageFormat::Tga, Channels::Rgb) => {
-                self.bytes.as_chunks_mut().0.iter_mut().for_each(|pixel: &mut [u8; 3]| pixel.reverse());
-            }
-            // Every TIFF is one with alpha, which its colours are multiplied by.
-            (ImageFormat::Tiff, Channels::Grey | Channels::Rgb) => {
-                let opaque = vec![u8::MAX; self.bytes.len() / self.channels.count()];
-                self.set_alpha(&opaque);
-            }
-            (ImageFormat::Tiff, Channels::Rgba) => {
-                for [colours @ .., alpha] in self.bytes.as_chunks_mut::<4>().0 {
-                    for sample in colours {
-                        *sample = ((u32::from(*sample) * u32::from(*alpha) + 127) / 255) as u8;
-                    }
-                }
-            }
-            _ => {}
-        }
-    }
-
-    /// Drops the alpha of 8 bits of an image that is opaque throughout.
-    fn drop_opaque_alpha(&mut self) {
-        let pixels = self.bytes.as_chunks::<4>().0;
-        if self.channels == Channels::Rgba && !self.deep && pixels.iter().all(|pixel| pixel[3] == 255) {
-            self.bytes = pixels.iter().flat_map(|&[r, g, b, _]| [r, g, b]).collect();
-            self.channels = Channels::Rgb;
-        }
-    }
-
-    /// Keeps the first of the channels, of samples of 8 bits.
-    fn keep_first_channel(&mut self) {
-        self.bytes = self.bytes.iter().copied().step_by(self.channels.count()).collect();
-        self.channels = Channels::Grey;
-    }
-
-    /// Adds an alpha for each pixel of samples of 8 bits, where there is none.
-    fn set_alpha(&mut self, alpha: &[u8]) {
-        let pixels = self.bytes.chunks_exact(self.channels.count()).zip(alpha);
-        self.bytes = pixels.flat_map(|(colours, alpha)| colours.iter().chain([alpha])).copied().collect();
-        self.channels = if self.channels == Channels::Grey { Channels::GreyAlpha } else { Channels::Rgba };
-    }
-}
-
 /// Decodes an image of this format.
 fn decode_as(input: &mut dyn Input, format: ImageFormat, limit: Limit) -> Result<Pixels, Error> {
     decode(ImageReader::with_format(input, format).into_decoder().map_err(refused)?, limit)
@@ -282,15 +194,19 @@ fn decode(mut decoder: impl ImageDecoder, limit: Limit) -> Result<Pixels, Error>
         }
     };
     let total = decoder.total_bytes();
+    let claim = format!("claims {width} x {height} pixels, {total} bytes when decoded,");
+    let refused_as = |kind| Error::new(kind, claim).with_value(total.to_string());
+    if total > limit.cells.saturating_mul(BYTES_PER_CELL) {
+        let allowed = format!("{BYTES_PER_CELL} for each cell of the limit of {}", limit.cells);
+        return Err(refused_as(ErrorKind::TooLarge).allowing(" more than ", allowed));
+    }
     if total > ANY_CLAIM && total / MOST_COMPRESSED > limit.length {
-        let message = format!("has {} bytes, which cannot hold", limit.length);
-        return Err(Error::new(ErrorKind::CutShort, message)
-            .with_value(limit.length.to_string())
-            .allowing(" ", format!("the {width} x {height} pixels it claims")));
+        let allowed = format!("{MOST_COMPRESSED} for each of the {} bytes it has", limit.length);
+        let refused = refused_as(ErrorKind::Unsupported).allowing(" more than ", allowed);
+        return Err(refused.followed_by("; convert it to PNG if it is meant"));
     }
     let mut limits = Limits::no_limits();
-    // Decoders keep the image once more, or planes of it.
-    limits.max_alloc = Some(total.saturating_mul(4).max(ANY_CLAIM));
+    limits.max_alloc = Some(total.saturating_mul(WHILE_DECODED).max(ANY_CLAIM));
     decoder.set_limits(limits).map_err(refused)?;
     let mut bytes = Vec::new();
     let total = usize::try_from(total).unwrap_or(usize::MAX);

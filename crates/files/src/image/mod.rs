@@ -8,6 +8,7 @@ mod format;
 mod layout;
 mod palette;
 mod pgm;
+mod pixels;
 mod png;
 mod reader;
 

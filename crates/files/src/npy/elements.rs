@@ -134,8 +134,8 @@ fn mismatch(encoding: ArrayEncoding, element: Element) -> Error {
     let (name, needed, mended) = match encoding {
         ArrayEncoding::Probability => ("probability", "float32 or float64", "p.astype('f4')"),
         ArrayEncoding::LogOdds => ("log-odds", "float32 or float64", "l.astype('f4')"),
-        ArrayEncoding::Percent => ("percent", "int8", "p.astype('i1')"),
-        ArrayEncoding::Mrpt => ("mrpt", "int8", "l.astype('i1')"),
+        ArrayEncoding::Percent => ("percent", "integers", "p.astype('i1')"),
+        ArrayEncoding::Mrpt => ("mrpt", "integers", "l.astype('i1')"),
     };
     Error::new(ErrorKind::Unsupported, format!("holds {}", element.name()))
         .with_value(element.name())

@@ -13,7 +13,7 @@ const MOST_BYTES: u32 = 64 << 10;
 pub(super) type Allowed = &'static str;
 
 /// The elements that maps may hold.
-pub(super) const MAPS: Allowed = "are float32 (f4), float64 (f8), int8 (i1), uint8 and bool";
+pub(super) const MAPS: Allowed = "are float32 (f4), float64 (f8), integers and bool";
 /// The elements that weights may hold.
 pub(super) const WEIGHTS: Allowed = "for weights are float32 (f4), float64 (f8) and integers";
 
@@ -288,7 +288,7 @@ impl<'a> Rest<'a> {
     fn descr(&mut self) -> Result<&'a str, Error> {
         if self.0.trim_start().starts_with('[') {
             return Err(Error::new(ErrorKind::Unsupported, "holds a structured array")
-                .allowing("; allowed are ", "plain arrays of float32, float64 or int8")
+                .allowing("; allowed are ", "plain arrays, of a number for each cell")
                 .followed_by("; save p['name of a field']"));
         }
         self.string()

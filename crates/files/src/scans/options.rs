@@ -5,7 +5,8 @@ use mean_information::scan::Pose;
 /// The greatest range, in metres, of a sensor that has none: no laser sees as far.
 pub(crate) const FARTHEST: f64 = 20_000.0;
 
-/// The options of the readers of scans. The default is everything as the file says.
+/// The options of the readers of scans. The default is everything as the file says. A release may add fields, as to
+/// [`Options`](crate::Options).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ScanOptions {
     /// The greatest range, in metres: from there on a number means no return. The file's own if absent.
@@ -15,7 +16,7 @@ pub struct ScanOptions {
 }
 
 /// A choice among the logs that a file holds, a bag or a saved state. The default is what there is only one of, and
-/// the trajectories of the frames `map` and `odom`.
+/// the trajectories of the frames `map` and `odom`. A release may add fields, as to [`Options`](crate::Options).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Selection {
     /// The topic of a bag's scans; the only one of type `sensor_msgs/LaserScan` if absent.
@@ -56,6 +57,7 @@ impl Default for Selection {
 /// The field of a CARMEN message that has its time. A message ends with `ipc_timestamp host logger_timestamp`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
+#[non_exhaustive]
 pub enum TimeField {
     /// The first one, `ipc_timestamp`: when the message was made, since 1970.
     #[default]

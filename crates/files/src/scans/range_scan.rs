@@ -34,6 +34,7 @@ pub enum Reading {
 /// The meaning of a beam that did not return.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
+#[non_exhaustive]
 pub enum NoReturn {
     /// Nothing: glass, dark surfaces and errors do not return either. The beam is left out, as in GMapping.
     #[default]

@@ -1,7 +1,7 @@
 //! The sentence of each warning.
 
 use super::{SAVED_UNKNOWN, Warning};
-use crate::error::short;
+use crate::error::{bounded, short};
 use crate::options::Mode;
 use std::fmt;
 
@@ -176,7 +176,8 @@ impl fmt::Display for Warning {
             }
             Self::FrameStaticAndMoving { ref frame } => write!(
                 f,
-                "frame {frame} is on /tf_static and on /tf: the poses of /tf hold, as in tf2 from its first message there on"
+                "frame {} is on /tf_static and on /tf: the poses of /tf hold, as in tf2 from its first message there on",
+                bounded(frame)
             ),
             Self::PosesOfLaser => write!(
                 f,

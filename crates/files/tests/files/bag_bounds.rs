@@ -46,9 +46,17 @@ fn the_name_of_a_compression_is_short() {
     assert!(error.to_string().ends_with(words), "{error}");
 }
 
+/// A text of a megabyte stands in a message with its beginning only.
+#[test]
+fn a_text_that_is_not_utf_8_is_shortened() {
+    let error = refused(&[record(3, &[&[9, 0], &text(&vec![0xff; 1 << 20]), &text(b""), &text(b"")])]);
+    assert_eq!((error.kind(), error.value()), (ErrorKind::Format, Some(&*"\u{fffd}".repeat(32))));
+    assert!(error.to_string().len() < 1000, "{}", error.to_string().len());
+}
+
 #[cfg(feature = "sqlite")]
 mod databases {
-    use mean_information_files::bags::{MapSeries, MapTopic, read_bag};
+    use mean_information_files::bags::{MapSeries, MapTopic, Message, Topic, Visitor, read_bag};
     use mean_information_files::{Error, ErrorKind, Options};
     use mean_information_test_support::formats::Folder;
     use rusqlite::Connection;
@@ -85,6 +93,43 @@ mod databases {
         assert_eq!(error.kind(), ErrorKind::Unsupported);
         assert!(error.to_string().contains("computes columns of its table messages"), "{error}");
         assert!(refused(&[MESSAGES]).to_string().contains("no such table: topics"));
+    }
+
+    /// The bytes of the messages, in the order in which they come.
+    #[derive(Default)]
+    struct Taken(Vec<Vec<u8>>);
+
+    impl Visitor for Taken {
+        fn wants(&mut self, _: &Topic) -> bool {
+            true
+        }
+
+        fn take(&mut self, message: &Message<'_>) -> Result<(), Error> {
+            self.0.push(message.bytes.to_vec());
+            Ok(())
+        }
+    }
+
+    /// Messages come as they stand in the file.
+    #[test]
+    fn messages_are_not_sorted() {
+        let folder = Folder::new();
+        let path = folder.write("x", b"").with_file_name("run.db3");
+        let unsorted = "CREATE TABLE messages(id INTEGER, topic_id INTEGER, timestamp INTEGER, data BLOB);
+            INSERT INTO messages VALUES (3, 1, 7, x'61'), (1, 2, 8, x'62'), (2, 1, 9, x'63');
+            INSERT INTO topics VALUES (2, '/b', 'x/msg/Y', 'cdr');";
+        Connection::open(&path).unwrap().execute_batch(&[TOPICS, unsorted].concat()).unwrap();
+        let mut taken = Taken::default();
+        read_bag(&path, &Options::default(), &mut taken).unwrap();
+        assert_eq!(taken.0, [b"a", b"b", b"c"]);
+        // Tables of which rows cannot be had by their numbers.
+        let named = "CREATE TABLE messages(rowid TEXT, topic_id INTEGER, timestamp INTEGER, data BLOB);";
+        let error = refused(&[TOPICS, named]);
+        assert_eq!(error.kind(), ErrorKind::Unsupported);
+        assert!(error.to_string().contains("has a column rowid in its table messages"), "{error}");
+        let keyed = MESSAGES.replace(';', " WITHOUT ROWID;");
+        let error = refused(&[TOPICS, &keyed]);
+        assert!(error.to_string().contains("no such column: rowid"), "{error}");
     }
 
     #[test]

@@ -19,6 +19,22 @@ pub(crate) fn bag() -> Vec<(&'static str, Vec<u8>)> {
     seeds
 }
 
+pub(crate) fn db3() -> Vec<(&'static str, Vec<u8>)> {
+    let whole = fs::read(crate::bags::bag("maps_db3/maps_db3.db3")).unwrap();
+    vec![("cut", whole[..3 * 4096].to_vec()), ("whole", whole)]
+}
+
+pub(crate) fn bag_folder() -> Vec<(&'static str, Vec<u8>)> {
+    let listed = |names: &str| format!("rosbag2_bagfile_information:\n  version: 4\n{names}").into_bytes();
+    vec![
+        ("listed", listed("  relative_file_paths:\n    - run/run_0.mcap\n    - \"run_0.mcap\"\n")),
+        ("packed", listed("  relative_file_paths: [run_0.mcap.zstd]\n")),
+        ("elsewhere", listed("  relative_file_paths: [../run_0.mcap, metadata.yaml]\n")),
+        ("none", listed("  duration: {nanoseconds: 1}\n")),
+        ("bomb", listed("  a: &a [x, x]\n  relative_file_paths: [*a, *a]\n")),
+    ]
+}
+
 pub(crate) fn pbstream() -> Vec<(&'static str, Vec<u8>)> {
     let whole = state(&[submap(&grid(&[0, 1, 32767, 32769, 32768, 20000], b""))]);
     let many = message(3, &[&integer(1, 1 << 40), &integer(2, 1 << 40)]);

@@ -191,9 +191,24 @@ fn what_claims_more_than_it_holds_takes_no_memory() {
     huge[22..26].copy_from_slice(&16000_u32.to_le_bytes());
     folder.write("map.bmp", &huge);
     let refused = refusal_of(&map, &Options::default());
-    assert!(refused.contains("which cannot hold the 16000 x 16000 pixels it claims"), "{refused}");
+    assert!(
+        refused.contains(
+            "claims 16000 x 16000 pixels, 768000000 bytes when decoded, more than 4096 for each of the 1082 bytes it has; \
+             convert it to PNG if it is meant"
+        ),
+        "{refused}"
+    );
     let refused = refusal_of(&map, &Options { max_cells: Some(1000), ..Options::default() });
     assert!(refused.contains("more than the limit of 1000"), "{refused}");
+    // Colours of 16 bits with alpha take twice the bytes that a cell of the limit has.
+    let deep = ImageBuffer::<image::Rgba<u16>, _>::from_raw(5, 3, vec![0_u16; 60]).unwrap();
+    folder.write("map.bmp", encoded(&DynamicImage::from(deep), ImageFormat::Tiff));
+    let refused = refusal_of(&map, &Options { max_cells: Some(29), ..Options::default() });
+    assert!(
+        refused.contains("claims 5 x 3 pixels, 120 bytes when decoded, more than 4 for each"),
+        "{refused}"
+    );
+    read_twice(&map, &Options { max_cells: Some(30), ..Options::default() }).unwrap();
     let whole = bmp(8, &[], &[0; 4]);
     folder.write("map.bmp", &whole[..whole.len() - 2]);
     assert!(refusal_of(&map, &Options::default()).contains("cut short"));

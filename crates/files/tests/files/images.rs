@@ -39,7 +39,7 @@ fn every_kind_of_png_under_both_loaders_and_all_modes() {
                                 let (colour, white) = kind.by_magick(pixel);
                                 rule.nav2_humble(mode, colour, kind.has_alpha(), white)
                             }
-                            Semantics::Ros1 => {
+                            _ => {
                                 let (surface, alpha_mask) = kind.on_sdl_surface(pixel);
                                 rule.ros1(mode, &surface, alpha_mask)
                             }
@@ -133,18 +133,18 @@ fn pgm_of_every_depth_plain_and_raw() {
                                 let grey = u32::from(grey);
                                 rules()[1].nav2_humble(Mode::Scale, [grey, grey, grey, 0], false, max.into())
                             }
-                            Semantics::Ros1 => rules()[1].ros1(Mode::Scale, &[level as u8], false),
+                            _ => rules()[1].ros1(Mode::Scale, &[level as u8], false),
                         }
                     })
                     .collect();
                 assert_eq!(percents(&map), expected, "{image} of {max} {semantics:?}");
                 let doubted = match semantics {
                     Semantics::Nav2 | Semantics::Nav2Humble => ![255, 65535].contains(&max),
-                    Semantics::Ros1 => max > 255,
+                    _ => max > 255,
                 };
                 let warning = match semantics {
                     Semantics::Nav2 | Semantics::Nav2Humble => Warning::PgmMaximum { white: max },
-                    Semantics::Ros1 => Warning::PgmMaximumRefused { white: max },
+                    _ => Warning::PgmMaximumRefused { white: max },
                 };
                 assert_eq!(map.warnings.contains(&warning), doubted, "{max} {semantics:?}");
             }

@@ -15,7 +15,7 @@ use zip::write::{SimpleFileOptions, ZipWriter};
 
 type Target = (&'static str, fn(&[u8]), fn() -> Vec<(&'static str, Vec<u8>)>);
 
-const TARGETS: [Target; 19] = [
+const TARGETS: [Target; 21] = [
     ("yaml", properties::yaml, yaml_seeds),
     ("pgm", properties::pgm, pgm_seeds),
     ("png", properties::png, png_seeds),
@@ -24,6 +24,8 @@ const TARGETS: [Target; 19] = [
     ("npz", properties::npz, npz_seeds),
     ("gridmap", properties::gridmap, gridmap_seeds),
     ("bag", properties::bag, bag_seeds::bag),
+    ("db3", properties::db3, bag_seeds::db3),
+    ("bag_folder", properties::bag_folder, bag_seeds::bag_folder),
     ("pbstream", properties::pbstream, bag_seeds::pbstream),
     ("octree", properties::octree, tree_seeds::octree),
     ("carmen_log", properties::carmen_log, carmen_log_seeds),
@@ -68,10 +70,10 @@ fn write_the_seeds() {
 /// Changes some bytes of each seed of a file format, again and again, where no fuzzer is at hand: `cargo test -p
 /// mean-information-files --test files -- --ignored --nocapture mutated`.
 #[test]
-#[ignore = "takes two minutes"]
+#[ignore = "takes more than two minutes"]
 fn mutated_seeds_keep_the_properties() {
     let mut random = Random::new(77);
-    for (target, property, seeds) in &TARGETS[..13] {
+    for (target, property, seeds) in &TARGETS[..15] {
         let (started, mut runs) = (Instant::now(), 0);
         while started.elapsed() < Duration::from_secs(8) {
             for (_, mut bytes) in seeds() {

@@ -1,15 +1,20 @@
 //! Bags and saved states: each is read or refused, and a bag that was cut is read up to the cut.
 
 use super::scans::{check_scan, check_trajectory};
+use crate::formats::{Folder, bag::mcap_of};
 use mean_information_files::bags::{
-    MapSeries, MapTopic, Message, Topic, Visitor, octree_of, read_stream, scans_of,
+    MapSeries, MapTopic, Message, Topic, Visitor, bag_files, octree_of, read_bag, read_stream, scans_of,
 };
 use mean_information_files::octree::{Leaf, Octant, OctreeVisitor};
 use mean_information_files::scans::{ScanLog, ScanOptions, Selection};
 use mean_information_files::{Error, Options, pbstream as states};
+use std::fs;
 
 /// Small, so that a claim is soon above it.
 const MAX_CELLS: u64 = 1 << 16;
+
+/// The most bytes of a message beside its cells, and of a row of SQLite beside its message.
+const MOST_BESIDE: u64 = (1 << 20) + (1 << 10);
 
 /// A message: its topic, its number, its time, its bytes.
 type Taken = (String, u64, u64, Vec<u8>);
@@ -70,6 +75,53 @@ pub fn bag(bytes: &[u8]) {
     match octree_of(read, "/octomap", &mut leaves) {
         Ok(tree) => assert!(tree.leaves == leaves.0 && tree.leaves <= tree.nodes && tree.resolution > 0.0),
         Err(error) => assert!(!error.to_string().is_empty()),
+    }
+}
+
+/// Counts messages, and holds them to the limit.
+struct Bounded(u64);
+
+impl Visitor for Bounded {
+    fn wants(&mut self, _: &Topic) -> bool {
+        true
+    }
+
+    fn take(&mut self, message: &Message<'_>) -> Result<(), Error> {
+        assert!(message.bytes.len() as u64 <= MAX_CELLS + MOST_BESIDE);
+        self.0 += 1;
+        Ok(())
+    }
+}
+
+/// Reads a bag of rosbag2 in SQLite: it is read or refused, nothing in it is changed, and nothing is written beside it.
+pub fn db3(bytes: &[u8]) {
+    let folder = Folder::new();
+    let path = folder.write("run.db3", bytes);
+    let mut messages = Bounded(0);
+    match read_bag(&path, &options(), &mut messages) {
+        // Of a bag that was cut there is a message.
+        Ok(warnings) => assert!(warnings.len() <= 1 && (warnings.is_empty() || messages.0 > 0)),
+        Err(error) => assert!(!error.to_string().is_empty()),
+    }
+    assert_eq!(folder.names(), ["run.db3"]);
+    assert_eq!(fs::read(path).unwrap(), bytes);
+}
+
+/// Reads the folder of a bag by a `metadata.yaml`: it is refused, or lists files that are there, which are read or refused.
+pub fn bag_folder(bytes: &[u8]) {
+    let folder = Folder::new();
+    folder.write(
+        "run_0.mcap",
+        mcap_of("cdr", &[(1, "/map", "nav_msgs/msg/OccupancyGrid")], &[(1, vec![0; 8])]),
+    );
+    folder.write("metadata.yaml", bytes);
+    let path = folder.path("");
+    match bag_files(&path) {
+        Ok(files) => assert!(!files.is_empty() && files.iter().all(|file| file.is_file())),
+        Err(error) => assert!(!error.to_string().is_empty()),
+    }
+    if let Err(error) = read_bag(&path, &options(), &mut Bounded(0)) {
+        assert!(!error.to_string().is_empty());
     }
 }
 

@@ -20,7 +20,7 @@ mod scans;
 mod tally;
 
 #[cfg(feature = "formats")]
-pub use bags::{bag, pbstream};
+pub use bags::{bag, bag_folder, db3, pbstream};
 pub use builders::{expected, scan};
 #[cfg(feature = "formats")]
 pub use filters::filter_log;

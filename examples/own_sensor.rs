@@ -26,6 +26,9 @@ impl Sonar {
     }
 
     /// Computes `p = 0.45 - 0.4 e^(-ρ / fading)`: 0.05 at the sensor.
+    ///
+    /// Of an `S: Scalar` this `exp` is correctly rounded; of a plain `f64` it would be the standard library's: there
+    /// `Scalar::exp(x)`.
     fn free<S: Scalar>(&self, rho: S) -> S {
         S::constant(0.45) - S::constant(0.4) * (-rho / S::constant(self.fading)).exp()
     }

@@ -109,7 +109,9 @@ impl<T: Real, M: InverseSensorModel<Float = T>> Rays<M> {
             (nearest, 0)
         };
         let [x, y] = end.map(|x| x as u64);
-        let words = [x, y, nearest.widen().to_bits(), plateau, u64::from(is_return)];
+        let levels = Levels::new(lattice, &model, reach, nearest, plateau);
+        let [free, wall] = [nearest, levels.wall].map(|p| p.widen().to_bits());
+        let words = [x, y, free, plateau, wall, u64::from(is_return)];
         self.print = self.print.together(Print::of(&words));
         self.area = self.area.union(Area::of_cell(cell_of(end)));
         // Cells that the segment leaves within so many units along its longer axis; the margin has room for what the part lacks.
@@ -118,7 +120,6 @@ impl<T: Real, M: InverseSensorModel<Float = T>> Rays<M> {
             self.free = nearest;
         }
         self.tracks.push(Track::new(self.start, end, if nearest == self.free { sure } else { 0 }));
-        let levels = Levels::new(lattice, &model, reach, nearest, plateau);
         self.segments.push(Segment { levels, model, is_return });
         Ok(())
     }
@@ -128,7 +129,8 @@ impl<T: Real, M: InverseSensorModel<Float = T>> Rays<M> {
         self.area
     }
 
-    /// Returns the print of the scan: of its place, and of each beam's end, free space and return, in any order of beams.
+    /// Returns the print of the scan: of its place, and of each beam's end, free space, obstacle and return, in any order of
+    /// beams.
     pub(super) fn print(&self) -> Print {
         self.print
     }

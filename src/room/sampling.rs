@@ -70,7 +70,7 @@ impl<M: InverseSensorModel> Samples<M> {
 
     /// Creates the error of too many samples.
     pub(super) fn refused(&self, what: &'static str, count: f64) -> Error {
-        Error::TooManyCells { what, count, limit: self.limit }
+        Error::TooManySamples { what, count, limit: self.limit }
     }
 
     /// Evaluates the model at one distance.

@@ -138,12 +138,11 @@ impl<T: Real, M: InverseSensorModel<Float = T>> Rays<M> {
     /// Finds what the scan says of each cell, the log-odds limited: each cell once, those at 1/2 left out.
     ///
     /// # Errors
-    /// [`Error::Item`] naming a beam whose model gives no occupancy; [`Error::TooManyCells`] if there is no memory.
+    /// [`Error::Item`] naming a beam whose model gives no occupancy; [`Error::NoMemory`].
     pub(super) fn readings(&self, max_cells: u64) -> Result<Readings, Error> {
         let mut drafts = Drafts::new(self.area, self.free, max_cells)?;
         let mut distances = None;
-        let shared =
-            self.shared(&drafts.canvas).map_err(|_| Error::too_many_cells(self.area.cells(), max_cells))?;
+        let shared = self.shared(&drafts.canvas).map_err(|_| Error::no_memory(self.area.cells()))?;
         // One after another, as what a processor guesses wrongly of one beam holds up the others.
         for (track, &shared) in self.tracks.iter().zip(&shared) {
             track.draw(shared, &mut drafts.canvas);

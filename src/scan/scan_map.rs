@@ -154,8 +154,8 @@ impl<T: Real> ScanMap<T> {
     ///
     /// # Errors
     /// What `model` refuses; [`Error::Item`] naming a beam whose model gives no occupancy, or a place that is not
-    /// within `2^33` cells of the origin; [`Error::TooManyCells`] if the map would exceed its limit. Then the map has
-    /// not changed.
+    /// within `2^33` cells of the origin; [`Error::TooManyCells`] if the map would exceed its limit; [`Error::NoMemory`].
+    /// Then the map has not changed.
     pub fn insert<M, F>(&mut self, scan: &Scan<T>, model: F) -> Result<(), Error>
     where
         M: InverseSensorModel<Float = T>,
@@ -174,7 +174,7 @@ impl<T: Real> ScanMap<T> {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if the map does not hold the scan by this model: it was not inserted, was removed already, or had
-    /// another model; [`Error::TooManyCells`] if there is no memory for its readings; what `model` refuses. Then the map has
+    /// another model; [`Error::NoMemory`] if there is none for its readings; what `model` refuses. Then the map has
     /// not changed.
     ///
     /// ```

@@ -83,9 +83,10 @@ fn main() -> Result<(), Error> {
         println!("{name}: estimated {} ± {:.1e}", estimate.value, estimate.error);
         println!("{name}: proved    {} to {}", enclosure.lower, enclosure.upper);
         for cell in [0.16, 0.04, 0.01] {
-            let tally = match weight {
-                Weight::Radial => PolarRoom::new(sonar(), cell)?.tally()?,
-                Weight::Area => CartesianRoom::new(sonar(), cell, [0.5, 0.5])?.tally()?,
+            let tally = if weight == Weight::Radial {
+                PolarRoom::new(sonar(), cell)?.tally()?
+            } else {
+                CartesianRoom::new(sonar(), cell, [0.5, 0.5])?.tally()?
             };
             println!("    cells of {cell:4} m: {}", tally.mean_information());
         }

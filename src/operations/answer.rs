@@ -7,6 +7,7 @@ use core::fmt;
 
 /// The value of an argument.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Value<T> {
     /// A float.
     Float(T),
@@ -29,6 +30,7 @@ impl<T> Value<T> {
 
 /// The result of an operation.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Answer<T> {
     /// A float.
     Float(T),
@@ -38,6 +40,7 @@ pub enum Answer<T> {
 
 /// The reason why there is no result.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Refusal {
     /// An argument outside the domain: the protocol's error `domain`.
     Domain(Error),

@@ -9,6 +9,7 @@ use num_traits::Zero;
 
 /// The way in which a cell of a room gets its occupancy.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Sampling {
     /// The model at the cell's centre.
     #[default]

@@ -9,6 +9,7 @@ use crate::cell::{self, Cell};
 use crate::real::Real;
 use crate::tally::{InformationSum, Tally};
 use core::marker::PhantomData;
+use core::ops::AddAssign;
 #[cfg(feature = "std")]
 use std::sync::LazyLock;
 
@@ -80,20 +81,26 @@ impl<T: Real> Encoding for LogOdds<T> {
     }
 
     fn tally(cells: &[T]) -> Tally<T> {
-        let (mut recurring, mut others) = (Tally::new(), Tally::new());
-        let count = |l, count| Self::cell(l).into_iter().for_each(|cell| recurring.add_many(cell, count));
-        repeated::each(cells, count, |cells| others.merge(&Tally::from_log_odds(cells)));
-        recurring.merge(&others);
-        recurring
+        summed(cells, Tally::add_many, Tally::from_log_odds)
     }
 
     fn information_sum(cells: &[T]) -> InformationSum<T> {
-        let (mut recurring, mut others) = (InformationSum::new(), InformationSum::new());
-        let count = |l, count| Self::cell(l).into_iter().for_each(|cell| recurring.add_many(cell, count));
-        repeated::each(cells, count, |cells| others.merge(&InformationSum::from_log_odds(cells)));
-        recurring.merge(&others);
-        recurring
+        summed(cells, InformationSum::add_many, InformationSum::from_log_odds)
     }
+}
+
+/// Sums up cells of log-odds: those that recur by their counts, the others many at once.
+fn summed<T: Real, S: Default + AddAssign>(
+    cells: &[T],
+    add_many: fn(&mut S, Cell<T>, u64),
+    many: fn(&[T]) -> S,
+) -> S {
+    let (mut recurring, mut others) = (S::default(), S::default());
+    let count =
+        |l, count| LogOdds::cell(l).into_iter().for_each(|cell| add_many(&mut recurring, cell, count));
+    repeated::each(cells, count, |cells| others += many(cells));
+    recurring += others;
+    recurring
 }
 
 /// Evaluates a function of a byte from a table that is made on first use.

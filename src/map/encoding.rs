@@ -131,6 +131,17 @@ macro_rules! tabulated {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Percent;
 
+/// The occupancies at the percentages from -1 to 100: a table takes half the time of a division.
+static FROM_PERCENT: [f64; 102] = {
+    let mut table = [0.5; 102];
+    let mut percent = 0;
+    while percent <= 100 {
+        table[percent + 1] = percent as f64 / 100.0;
+        percent += 1;
+    }
+    table
+};
+
 impl Encoding for Percent {
     type Stored = i8;
     type Float = f64;
@@ -150,11 +161,7 @@ impl Encoding for Percent {
     }
 
     fn occupancy(percent: i8) -> Option<f64> {
-        match percent {
-            -1 => Some(0.5),
-            0..=100 => Some(f64::from(percent) / 100.0),
-            _ => None,
-        }
+        FROM_PERCENT.get(usize::from((percent as u8).wrapping_add(1))).copied()
     }
 
     fn is_valid(percent: i8) -> bool {

@@ -23,6 +23,7 @@ fn tests(operation: &Operation) -> Vec<(Vec<Value<f64>>, f64)> {
         Shape::Float => Value::Float(scalar(x)),
         Shape::List => Value::List(list(x)),
         Shape::Rows => Value::Rows(x.as_array().expect("rows").iter().map(list).collect()),
+        other => panic!("no {} in the vectors", other.name()),
     };
     let tests = file["tests"].as_array().expect("tests").iter();
     tests
@@ -41,6 +42,7 @@ fn answer(operation: &Operation, arguments: &[Value<f64>]) -> f64 {
     match operation.run(arguments).expect("inside the domain") {
         Answer::Float(x) => x,
         Answer::Count(count) => count as f64,
+        other => panic!("no number: {other:?}"),
     }
 }
 

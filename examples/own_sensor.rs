@@ -26,6 +26,9 @@ impl Sonar {
     }
 
     /// Computes `p = 0.45 - 0.4 e^(-ρ / fading)`: 0.05 at the sensor.
+    ///
+    /// Of an `S: Scalar` this `exp` is correctly rounded; of a plain `f64` it would be the standard library's: there
+    /// `Scalar::exp(x)`.
     fn free<S: Scalar>(&self, rho: S) -> S {
         S::constant(0.45) - S::constant(0.4) * (-rho / S::constant(self.fading)).exp()
     }
@@ -80,9 +83,10 @@ fn main() -> Result<(), Error> {
         println!("{name}: estimated {} ± {:.1e}", estimate.value, estimate.error);
         println!("{name}: proved    {} to {}", enclosure.lower, enclosure.upper);
         for cell in [0.16, 0.04, 0.01] {
-            let tally = match weight {
-                Weight::Radial => PolarRoom::new(sonar(), cell)?.tally()?,
-                Weight::Area => CartesianRoom::new(sonar(), cell, [0.5, 0.5])?.tally()?,
+            let tally = if weight == Weight::Radial {
+                PolarRoom::new(sonar(), cell)?.tally()?
+            } else {
+                CartesianRoom::new(sonar(), cell, [0.5, 0.5])?.tally()?
             };
             println!("    cells of {cell:4} m: {}", tally.mean_information());
         }

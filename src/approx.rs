@@ -192,11 +192,14 @@ impl_comparisons! {
     ///
     /// ```
     /// use approx::{assert_abs_diff_eq, assert_abs_diff_ne};
-    /// use mean_information::estimate::{Estimate, Status};
-    /// let ours = Estimate { value: 2.354, error: 1e-6, status: Status::Converged, evaluations: 63 };
-    /// let theirs = Estimate { value: 2.355, error: 2e-6, evaluations: 127, ..ours };
-    /// assert_abs_diff_eq!(ours, theirs, epsilon = 0.0011);
-    /// assert_abs_diff_ne!(ours, Estimate { status: Status::RoundOff, ..theirs }, epsilon = 0.0011);
+    /// use mean_information::quadrature::adaptive::{GaussKronrod, Rule};
+    /// let [ours, theirs, cut] = [(Rule::K15, 999), (Rule::K61, 999), (Rule::K15, 15)].map(|(rule, limit)| {
+    ///     let rules = GaussKronrod::new().rule(rule).limit(limit).relative(1e-9);
+    ///     rules.integrate(|x: f64| 1.0 / (x * x + 0.001), 0.0, 1.0)
+    /// });
+    /// assert_abs_diff_eq!(ours?, theirs.clone()?, epsilon = 1e-6);
+    /// assert_abs_diff_ne!(cut?, theirs?, epsilon = 1e6); // it did not converge
+    /// # Ok::<(), mean_information::Error>(())
     /// ```
     Estimate<T: Real>, T
 }
@@ -206,12 +209,14 @@ impl_comparisons! {
     /// evaluations is their cost, and may differ.
     ///
     /// ```
-    /// use approx::{assert_ulps_eq, assert_ulps_ne};
-    /// use mean_information::estimate::{Enclosure, Status};
-    /// let ours = Enclosure { lower: 0.3, upper: 0.4, status: Status::Converged, evaluations: 63 };
-    /// let theirs = Enclosure { lower: 0.1 + 0.2, evaluations: 127, ..ours };
-    /// assert_ulps_eq!(ours, theirs, max_ulps = 1);
-    /// assert_ulps_ne!(ours, Enclosure { upper: 0.41, ..theirs }, max_ulps = 1);
+    /// use approx::{assert_abs_diff_eq, assert_abs_diff_ne};
+    /// use mean_information::limit::{Weight, rigorous};
+    /// use mean_information::{quadrature::rigorous::Rigorous, sensor::GaussianSensor};
+    /// let sensor = GaussianSensor::new(2.0_f64, 0.2)?;
+    /// let limit = |tolerance| rigorous(&sensor, Weight::Radial, &Rigorous::new().relative(tolerance));
+    /// assert_abs_diff_eq!(limit(1e-12)?, limit(1e-14)?, epsilon = 1e-11);
+    /// assert_abs_diff_ne!(limit(1e-12)?, limit(0.01)?, epsilon = 1e-11);
+    /// # Ok::<(), mean_information::Error>(())
     /// ```
     Enclosure<T: Real>, T
 }

@@ -16,13 +16,18 @@ const FEW: usize = 16;
 /// Stores the results of a kernel, and those of `function` where the kernel leaves them undecided.
 macro_rules! each {
     ($arguments:ident, $results:ident, $kernel:ident, $function:ident) => {
-        let (given, places) = ($arguments.len(), $results.len());
-        assert!(given == places, "{given} arguments need as many places for results, not {places}");
+        assert_places($arguments, $results);
         #[cfg(feature = "std")]
         by_blocks($arguments, $results, lanes::$kernel, cell::$function);
         #[cfg(not(feature = "std"))]
         one_by_one($arguments, $results, cell::$function);
     };
+}
+
+/// Panics unless there are as many places for results as arguments.
+fn assert_places<T>(arguments: &[T], results: &[T]) {
+    let (given, places) = (arguments.len(), results.len());
+    assert!(given == places, "{given} arguments need as many places for results, not {places}");
 }
 
 /// Calls `function` for each argument and stores its results.
@@ -163,4 +168,24 @@ pub fn information_from_log_odds<T: Real>(log_odds: &[T], results: &mut [T]) {
 /// ```
 pub fn occupancy_from_log_odds<T: Real>(log_odds: &[T], results: &mut [T]) {
     each!(log_odds, results, occupancies_from_log_odds, occupancy_from_log_odds);
+}
+
+/// Computes the log-odds `l = ln(p / (1 - p))` of each occupancy, in nats; one by one, without vector kernels.
+///
+/// Correctly rounded (proved, [`rounding`](crate::book::rounding)): bit for bit [`cell::log_odds_from_occupancy`] of
+/// each.
+///
+/// Special cases: 0 at `p = 1/2`, `-inf` and `+inf` at 0 and 1, NaN outside `[0, 1]` and at NaN.
+///
+/// # Panics
+/// If the slices differ in length.
+///
+/// ```
+/// let mut log_odds = [0.0; 3];
+/// mean_information::elementwise::log_odds_from_occupancy(&[0.25_f64, 0.5, 1.0], &mut log_odds);
+/// assert_eq!(log_odds, [-1.0986122886681098, 0.0, f64::INFINITY]); // -ln 3
+/// ```
+pub fn log_odds_from_occupancy<T: Real>(occupancies: &[T], results: &mut [T]) {
+    assert_places(occupancies, results);
+    one_by_one(occupancies, results, cell::log_odds_from_occupancy);
 }

@@ -53,6 +53,7 @@ impl Status<f64> {
 
 /// A value with the error it is believed to have: not proved.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Estimate<T> {
     /// The value.
     pub value: T,
@@ -64,8 +65,18 @@ pub struct Estimate<T> {
     pub evaluations: u64,
 }
 
-/// Two floats that are proved to have the true value between them, ends included.
+/// Two floats that are proved to have the true value between them, ends included: only this crate makes one.
+///
+/// ```
+/// use mean_information::limit::{Weight, rigorous};
+/// use mean_information::{quadrature::rigorous::Rigorous, sensor::GaussianSensor};
+/// let limit = rigorous(&GaussianSensor::new(2.0_f64, 0.2)?, Weight::Area, &Rigorous::new().relative(0.01))?;
+/// assert!(limit.contains(0.6525109529727351) && !limit.contains(0.67));
+/// assert!(0.0 < limit.width() && limit.width() < 0.01); // bits
+/// # Ok::<(), mean_information::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Enclosure<T> {
     /// The lower end, not above the true value.
     pub lower: T,
@@ -79,24 +90,41 @@ pub struct Enclosure<T> {
 
 impl<T: Real> Enclosure<T> {
     /// Returns true if `x` lies between the ends.
-    ///
-    /// ```
-    /// use mean_information::estimate::{Enclosure, Status};
-    /// let third = Enclosure { lower: 0.333_f64, upper: 0.334, status: Status::Converged, evaluations: 2 };
-    /// assert!(third.contains(1.0 / 3.0) && !third.contains(0.335));
-    /// ```
     pub fn contains(&self, x: T) -> bool {
         self.lower <= x && x <= self.upper
     }
 
-    /// Returns `upper - lower`, rounded to nearest.
-    ///
-    /// ```
-    /// use mean_information::estimate::{Enclosure, Status};
-    /// let third = Enclosure { lower: 0.25_f64, upper: 0.375, status: Status::Converged, evaluations: 2 };
-    /// assert_eq!(third.width(), 0.125);
-    /// ```
+    /// Returns `upper - lower`, rounded up: exact, or the next float above, as the exact residual of
+    /// IEEE 754's difference tells.
     pub fn width(&self) -> T {
-        self.upper - self.lower
+        let width = self.upper - self.lower;
+        // Knuth's TwoSum: what rounding to nearest took away, exactly. Of infinite ends it is NaN.
+        let taken = width - self.upper;
+        let rest = (self.upper - (width - taken)) - (self.lower + taken);
+        if rest > T::zero() {
+            let (m, e) = width.parts();
+            T::from_parts(m + 1, e)
+        } else {
+            width
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn width<T: Real>(lower: T, upper: T) -> T {
+        Enclosure { lower, upper, status: Status::Converged, evaluations: 2 }.width()
+    }
+
+    #[test]
+    fn a_width_is_rounded_up() {
+        assert_eq!((width(0.25, 0.375), width(1.5_f32, 1.5)), (0.125, 0.0));
+        let (tiny, large) = (f64::from_parts(1, -60), 3.0_f64.next_up());
+        assert_eq!((width(-tiny, 1.0), width(tiny, 1.0)), (1.0_f64.next_up(), 1.0));
+        assert_eq!((width(-1e-30_f32, 3.0), width(1e-30_f32, 3.0)), (3.0_f32.next_up(), 3.0));
+        assert_eq!(width(-1.0, large), 4.0_f64.next_up());
+        assert_eq!((width(f64::MIN, f64::MAX), width(0.5, f64::INFINITY)), (f64::INFINITY, f64::INFINITY));
     }
 }

@@ -78,8 +78,10 @@
 //!   elementary function of the standard library is called.
 //! * Unknown is exact: `p = 1/2`, and nothing here turns an unknown cell into an observed one.
 //! * The limits of Eq. 7 are within **0.501 ulp** of exact; enclosures contain the exact value, always.
-//! * No panic on input, except where an item says so under *Panics*: constructors return an [`Error`] that names the argument, its
-//!   value and the allowed range; functions of floats return NaN outside their domain.
+//! * No panic on input, except where an item says so under *Panics*. Functions of floats return NaN outside their domain. What is
+//!   created from arguments is refused by an [`Error`] that names the argument, its value and the allowed range. Sums made of a
+//!   slice of floats at once ([`Tally::from_occupancies`] and its like) refuse nothing: they leave out the values that are no
+//!   cells, and their `cells` is then below the length of the slice. [`map::Grid::new`] refuses the first of these by its place.
 //!
 //! # What it does not do
 //! It reads no files, which `mean-information-files` does, and draws no pictures, which the command `meaninfo` (package

@@ -94,9 +94,10 @@ pub trait Real:
     /// Zero gives `m = 0`. The pair of an infinity or a NaN means nothing.
     fn parts(self) -> (u64, i32);
 
-    /// Returns the number `m * 2^e`, which the caller knows to be representable.
+    /// Returns the number `m * 2^e`, exactly if it is representable.
     ///
-    /// Special case: a product above the largest finite number gives infinity.
+    /// Special cases: of another number the digits below the last one are cut off, which gives 0 below the smallest
+    /// positive number; a product above the largest finite number gives infinity.
     fn from_parts(m: u64, e: i32) -> Self;
 
     /// Converts to `f64`, exactly.
@@ -136,7 +137,10 @@ macro_rules! impl_real {
                 // Bring the leading one to the place of the implicit bit, or as near as a subnormal allows.
                 let shift =
                     (m.leading_zeros() as i32 + $stored - 63).min(e.saturating_sub(Self::MIN_EXPONENT));
-                let (m, e) = if shift >= 0 { (m << shift, e - shift) } else { (m >> -shift, e - shift) };
+                // Below the smallest number all bits may leave; above the largest, the exponent may.
+                let m =
+                    if shift >= 0 { m << shift } else { m.checked_shr(shift.unsigned_abs()).unwrap_or(0) };
+                let e = e.saturating_sub(shift);
                 let biased = if m >> $stored == 0 {
                     0
                 } else {
@@ -191,6 +195,14 @@ mod tests {
         assert_eq!(f64::from_parts(3, 1023).to_bits(), f64::INFINITY.to_bits());
         assert_eq!(f64::from_parts(1, i32::MAX).to_bits(), f64::INFINITY.to_bits());
         assert_eq!(f64::from_parts(1 << 60, -60), 1.0);
+        assert_eq!(f64::from_parts(u64::MAX, i32::MAX), f64::INFINITY);
+        for (m, e) in [(1 << 62, -1200), (u64::MAX, -1138), (3, -1076), (u64::MAX, i32::MIN), (1, i32::MIN)] {
+            assert_eq!((f64::from_parts(m, e).to_bits(), f32::from_parts(m, e).to_bits()), (0, 0), "{m} {e}");
+        }
+        assert_eq!(
+            (f64::from_parts(u64::MAX, -1137), f32::from_parts(7, -151)),
+            (f64::from_bits(1), f32::from_bits(1))
+        );
         assert_eq!(f64::MAX.parts(), ((1 << 53) - 1, 971));
         assert_eq!(f64::from_parts((1 << 53) - 1, 971), f64::MAX);
     }

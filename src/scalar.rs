@@ -19,14 +19,17 @@ use crate::real::Real;
 /// the exact results (proved, [`rounding`](crate::book::rounding), [`quadrature`](crate::book::quadrature),
 /// [`integration`](crate::book::integration)). Floats are NaN outside the domain.
 ///
+/// On an `f32` or `f64` with the standard library `x.exp()` is the standard library's method, whose precision Rust leaves
+/// open, as methods of the type come first: write `Scalar::exp(x)` there. On an `S: Scalar` it is always this trait's.
+///
 /// ```
 /// use mean_information::scalar::Scalar;
 /// fn deficit<S: Scalar>(t: S) -> S {
 ///     (S::constant(-0.5) * t.clone() * t).exp().entropy()
 /// }
 /// assert_eq!(deficit(1.75_f64), 0.7532889301805203); // bits
-/// assert_eq!(1e-17_f64.exp_m1(), 1e-17); // e^x rounds to 1
-/// assert_eq!((2.5_f64.ln(), 2.5_f64.sqrt()), (0.9162907318741551, 1.5811388300841898));
+/// assert_eq!(Scalar::exp_m1(1e-17_f64), 1e-17); // e^x rounds to 1
+/// assert_eq!((Scalar::ln(2.5_f64), Scalar::sqrt(2.5_f64)), (0.9162907318741551, 1.5811388300841898));
 /// assert_eq!((-2.5_f64).entropy_from_log_odds(), 0.3874143787596851); // bits
 /// ```
 pub trait Scalar:

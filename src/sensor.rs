@@ -200,6 +200,7 @@ impl<T: Real> InverseSensorModel for GaussianSensor<T> {
 /// use mean_information::sensor::{InverseSensorModel, SteppedSensor};
 /// let sensor = SteppedSensor::new(2.0_f64, 0.5, 0.25, 0.875)?;
 /// assert_eq!([1.5, 1.75, 2.25, 2.5].map(|rho| sensor.occupancy(rho)), [0.25, 0.875, 0.875, 0.5]);
+/// assert_eq!([sensor.near(), sensor.far(), sensor.free(), sensor.occupied()], [1.75, 2.25, 0.25, 0.875]);
 /// # Ok::<(), mean_information::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -228,6 +229,26 @@ impl<T: Real> SteppedSensor<T> {
         }
         let half = thickness * T::HALF;
         Ok(Self { near: range - half, far: range + half, free, occupied })
+    }
+
+    /// Returns the distance at which the obstacle begins, in metres: negative if it holds the sensor.
+    pub fn near(&self) -> T {
+        self.near
+    }
+
+    /// Returns the distance at which the obstacle ends, in metres.
+    pub fn far(&self) -> T {
+        self.far
+    }
+
+    /// Returns the occupancy of free space.
+    pub fn free(&self) -> T {
+        self.free
+    }
+
+    /// Returns the occupancy of the obstacle.
+    pub fn occupied(&self) -> T {
+        self.occupied
     }
 
     /// Returns the stretches of a beam that are observed, nearest first, each with its occupancy.

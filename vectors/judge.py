@@ -12,6 +12,7 @@ Exit status 0: none failed; 1: some did; 2: bad usage, or a port that does not a
 import argparse
 import fnmatch
 import json
+import operator
 import pathlib
 import re
 import runpy
@@ -129,7 +130,7 @@ class Function:
 
     def __init__(self, place, operations):
         file, _, name = place.rpartition(":")
-        self.call, self.arguments = runpy.run_path(file)[name], operations
+        self.call, self.operations = runpy.run_path(file)[name], operations
 
     def declares(self, _op, test):
         return test["format"] == "f64"
@@ -137,18 +138,19 @@ class Function:
     def answer(self, op, test):
         floats = lambda x: [floats(y) for y in x] if isinstance(x, list) else float.fromhex(x)
         try:
-            result = self.call(*(floats(test["args"][a["name"]]) for a in self.arguments[op]["arguments"]))
+            result = self.call(*(floats(test["args"][a["name"]]) for a in self.operations[op]["arguments"]))
         except ValueError:
             return {"error": "domain"}
         except ArithmeticError as error:
             return {"error": repr(error)}
-        if isinstance(result, int):
-            return {"result": result}
+        # The operation says of which kind the result is: an integer may stand for a float, and a count be NumPy's.
+        is_count = self.operations[op]["result"] == "count"
         try:
-            result = float(result)
-        except (TypeError, ValueError):
-            stop(f"{test['id']}: no number, but {str(result)[:90]}")
-        return {"result": result.hex()} if result == result else {"error": "domain"}
+            if result != result:
+                return {"error": "domain"}
+            return {"result": int(operator.index(result)) if is_count else float(result).hex()}
+        except (TypeError, ValueError, OverflowError):
+            stop(f"{test['id']}: no {'count' if is_count else 'number'}, but {str(result)[:90]}")
 
 
 def main():

@@ -23,7 +23,7 @@ impl Alignment {
     ///
     /// # Errors
     /// [`Error::Item`] naming a map of another resolution or yaw than the first, or whose origin is not a whole
-    /// number of cells from the others'; [`Error::TooManyCells`].
+    /// number of cells from the others'; [`Error::TooManyCells`]; [`Error::NoMemory`].
     pub(super) fn of<E: Encoding>(maps: &[Grid<E>], limit: u64) -> Result<Self, Error> {
         let first = maps.first().ok_or_else(|| Error::out_of_range("number of maps", 0.0, "1 or more"))?;
         let (resolution, yaw) = (first.geometry().resolution(), first.geometry().yaw());
@@ -71,12 +71,13 @@ impl Alignment {
             offsets.push([column as usize, row as usize]);
         }
         let cells = width.saturating_mul(height);
-        match (usize::try_from(width), usize::try_from(height)) {
-            (Ok(width), Ok(height)) if cells <= u128::from(limit) => {
-                let geometry = Geometry::new(resolution, [x, y])?.with_yaw(yaw)?;
-                Ok(Self { geometry, width, height, offsets })
-            }
-            _ => Err(Error::too_many_cells(cells, limit)),
+        if cells > u128::from(limit) {
+            return Err(Error::too_many_cells(cells, limit));
         }
+        let (Ok(width), Ok(height)) = (usize::try_from(width), usize::try_from(height)) else {
+            return Err(Error::no_memory(cells));
+        };
+        let geometry = Geometry::new(resolution, [x, y])?.with_yaw(yaw)?;
+        Ok(Self { geometry, width, height, offsets })
     }
 }

@@ -100,10 +100,10 @@ impl<'a, E: Encoding> Hypotheses<'a, E> {
     /// # Errors
     /// [`Error::Item`] naming a map of another resolution or yaw than the first, or whose origin is not a whole
     /// number of cells from the others' (within 1/1024, for the rounding of file formats); [`Error::TooManyCells`] if
-    /// the smallest grid that holds all maps exceeds the limit.
+    /// the smallest grid that holds all maps exceeds the limit; [`Error::NoMemory`].
     pub fn expected_map(&self) -> Result<ExpectedMap<E::Float>, Error> {
         let alignment = self.alignment()?;
-        let mut cells = self.reserved(&alignment)?;
+        let mut cells = reserved(&alignment)?;
         let stack = Stack::new(self.maps, &alignment);
         let tally =
             self.sums(&stack, 0..stack.cells(), |mean, count| cells.resize(cells.len() + count, mean))?;
@@ -204,7 +204,7 @@ impl<'a, E: Encoding> Hypotheses<'a, E> {
     /// ```
     pub fn log_linear_pool(&self) -> Result<Grid<LogOdds<E::Float>>, Error> {
         let alignment = self.alignment()?;
-        let mut cells = self.reserved(&alignment)?;
+        let mut cells = reserved(&alignment)?;
         let (stack, mut finite) = (Stack::new(self.maps, &alignment), Vec::with_capacity(self.maps.len()));
         stack.each_run(0..stack.cells(), |run| {
             let stored = match run {
@@ -267,11 +267,11 @@ impl<'a, E: Encoding> Hypotheses<'a, E> {
     fn alignment(&self) -> Result<Alignment, Error> {
         Alignment::of(self.maps, self.max_cells)
     }
+}
 
-    /// Reserves memory for the cells of the grid, or refuses.
-    fn reserved<C>(&self, alignment: &Alignment) -> Result<Vec<C>, Error> {
-        let (mut cells, count) = (Vec::new(), alignment.width as u128 * alignment.height as u128);
-        let reserved = usize::try_from(count).is_ok_and(|count| cells.try_reserve_exact(count).is_ok());
-        if reserved { Ok(cells) } else { Err(Error::too_many_cells(count, self.max_cells)) }
-    }
+/// Reserves memory for the cells of the grid, or refuses.
+fn reserved<C>(alignment: &Alignment) -> Result<Vec<C>, Error> {
+    let (mut cells, count) = (Vec::new(), alignment.width as u128 * alignment.height as u128);
+    let reserved = usize::try_from(count).is_ok_and(|count| cells.try_reserve_exact(count).is_ok());
+    if reserved { Ok(cells) } else { Err(Error::no_memory(count)) }
 }

@@ -9,10 +9,9 @@
 
 use super::Weight;
 use super::model::{Piece, RadialModel};
-use crate::error::Error;
+use crate::error::{Error, positive};
 use crate::real::Real;
 use crate::scalar::{Integrand, Scalar};
-use num_traits::Zero;
 use num_traits::float::FloatCore;
 
 /// The integrand `H(p) g` along one piece of a model; of a mirrored one, the sum at `t` and `-t`.
@@ -53,11 +52,11 @@ pub(super) fn extent<M: RadialModel, S: Scalar>(model: &M, weight: Weight, piece
     piece.length.clone() * density(model, weight, piece.mirrored, middle)
 }
 
-/// Refuses a `z / σ` that the type cannot square.
+/// Refuses a scale that is no length, and a `z / σ` that the type cannot square.
 pub(super) fn check<M: RadialModel>(model: &M) -> Result<(), Error> {
-    let ratio = model.origin().widen() / model.scale().widen();
-    if !(model.scale() > M::Float::zero() && ratio.is_finite() && M::Float::nearest(ratio * 1e3).is_finite())
-    {
+    let scale = positive("scale of the model", model.scale())?;
+    let ratio = model.origin().widen() / scale.widen();
+    if !(ratio.is_finite() && M::Float::nearest(ratio * 1e3).is_finite()) {
         return Err(Error::out_of_range(
             "range over sigma",
             ratio,

@@ -13,7 +13,7 @@ use crate::sensor::{GaussianSensor, SteppedSensor};
 /// A negative length runs towards smaller `t`. A singularity, or a bump much narrower than the piece, may lie at the
 /// start: the adaptive integral begins with panels that shrink towards it. Elsewhere it sees a narrow bump only if that
 /// is the only thing in the piece: beside it the entropy is 0 to the floats.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Piece<S> {
     /// The start.
     pub start: S,

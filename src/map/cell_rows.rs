@@ -46,6 +46,11 @@ impl<E: Encoding> CellRows<E> {
         &self.cells
     }
 
+    /// Returns all cells and frees the rest.
+    pub(super) fn into_cells(self) -> Vec<E::Stored> {
+        self.cells
+    }
+
     /// Returns the cells of one row; `None` beyond the last.
     pub(super) fn row(&self, row: usize) -> Option<&[E::Stored]> {
         (row < self.height).then(|| &self.cells[row * self.width..][..self.width])

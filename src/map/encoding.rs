@@ -9,6 +9,7 @@ use crate::cell::{self, Cell};
 use crate::real::Real;
 use crate::tally::{InformationSum, Tally};
 use core::marker::PhantomData;
+use core::ops::AddAssign;
 #[cfg(feature = "std")]
 use std::sync::LazyLock;
 
@@ -80,20 +81,26 @@ impl<T: Real> Encoding for LogOdds<T> {
     }
 
     fn tally(cells: &[T]) -> Tally<T> {
-        let (mut recurring, mut others) = (Tally::new(), Tally::new());
-        let count = |l, count| Self::cell(l).into_iter().for_each(|cell| recurring.add_many(cell, count));
-        repeated::each(cells, count, |cells| others.merge(&Tally::from_log_odds(cells)));
-        recurring.merge(&others);
-        recurring
+        summed(cells, Tally::add_many, Tally::from_log_odds)
     }
 
     fn information_sum(cells: &[T]) -> InformationSum<T> {
-        let (mut recurring, mut others) = (InformationSum::new(), InformationSum::new());
-        let count = |l, count| Self::cell(l).into_iter().for_each(|cell| recurring.add_many(cell, count));
-        repeated::each(cells, count, |cells| others.merge(&InformationSum::from_log_odds(cells)));
-        recurring.merge(&others);
-        recurring
+        summed(cells, InformationSum::add_many, InformationSum::from_log_odds)
     }
+}
+
+/// Sums up cells of log-odds: those that recur by their counts, the others many at once.
+fn summed<T: Real, S: Default + AddAssign>(
+    cells: &[T],
+    add_many: fn(&mut S, Cell<T>, u64),
+    many: fn(&[T]) -> S,
+) -> S {
+    let (mut recurring, mut others) = (S::default(), S::default());
+    let count =
+        |l, count| LogOdds::cell(l).into_iter().for_each(|cell| add_many(&mut recurring, cell, count));
+    repeated::each(cells, count, |cells| others += many(cells));
+    recurring += others;
+    recurring
 }
 
 /// Evaluates a function of a byte from a table that is made on first use.
@@ -124,6 +131,17 @@ macro_rules! tabulated {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Percent;
 
+/// The occupancies at the percentages from -1 to 100: a table takes half the time of a division.
+static FROM_PERCENT: [f64; 102] = {
+    let mut table = [0.5; 102];
+    let mut percent = 0;
+    while percent <= 100 {
+        table[percent + 1] = percent as f64 / 100.0;
+        percent += 1;
+    }
+    table
+};
+
 impl Encoding for Percent {
     type Stored = i8;
     type Float = f64;
@@ -143,11 +161,7 @@ impl Encoding for Percent {
     }
 
     fn occupancy(percent: i8) -> Option<f64> {
-        match percent {
-            -1 => Some(0.5),
-            0..=100 => Some(f64::from(percent) / 100.0),
-            _ => None,
-        }
+        FROM_PERCENT.get(usize::from((percent as u8).wrapping_add(1))).copied()
     }
 
     fn is_valid(percent: i8) -> bool {

@@ -67,6 +67,18 @@ impl<E: Encoding> Grid<E> {
         self.rows.cells()
     }
 
+    /// Returns the stored cells and frees the grid.
+    ///
+    /// ```
+    /// use mean_information::map::{Geometry, Grid, encoding::Percent};
+    /// let map = Grid::<Percent>::new(3, 1, Geometry::new(0.05, [0.0, 0.0])?, vec![0, -1, 97])?;
+    /// assert_eq!(map.into_cells(), [0, -1, 97]);
+    /// # Ok::<(), mean_information::Error>(())
+    /// ```
+    pub fn into_cells(self) -> Vec<E::Stored> {
+        self.rows.into_cells()
+    }
+
     /// Returns the stored cells of one row; `None` beyond the last.
     pub fn row(&self, row: usize) -> Option<&[E::Stored]> {
         self.rows.row(row)
@@ -83,7 +95,8 @@ impl<E: Encoding> Grid<E> {
     }
 
     /// Computes the mean information (Eq. 4), in bits per observed cell; 0 if no cell is observed. It has the bits of
-    /// [`Tally::mean_information`], but is faster, because no entropies are computed.
+    /// [`Tally::mean_information`], within 1.5 ulp of that of the cells given, but is faster, because no entropies are
+    /// computed.
     ///
     /// ```
     /// use mean_information::map::{Geometry, Grid, encoding::Probability};

@@ -5,6 +5,7 @@
 
 use super::stored::Encoding;
 use crate::cell::Cell;
+use crate::error::Error;
 use crate::tally::{InformationSum, Tally};
 use core::iter::Sum;
 use core::ops::AddAssign;
@@ -24,7 +25,7 @@ const FEW_FROM: usize = 2 * LANES;
 /// The number of cells, in short pieces, after which the histogram is searched again for few values.
 const ASK_AFTER: u64 = 4096;
 /// The message for more cells than counts can hold.
-pub(super) const TOO_MANY: &str = "a histogram counts at most 2^64 - 1 cells";
+const TOO_MANY: &str = "a histogram counts at most 2^64 - 1 cells";
 
 mod sealed {
     pub trait Sealed: Copy {
@@ -121,12 +122,27 @@ impl Histogram {
         histogram
     }
 
-    /// Creates a histogram from the number of cells of each value, indexed by the value's bits; `None` if there are more
-    /// than `2^64 - 1` cells.
-    #[cfg(feature = "serde")]
-    pub(super) fn from_counts(counts: &[u64; 256]) -> Option<Self> {
-        let cells = counts.iter().try_fold(0_u64, |cells, &count| cells.checked_add(count))?;
-        Some(Self { counts: *counts, cells, recent: None })
+    /// Creates a histogram from the number of cells of each value, indexed by the value's bits: what
+    /// [`counts`](Self::counts) returns, and NumPy's `bincount` of the bytes.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if there are more than `2^64 - 1` cells.
+    ///
+    /// ```
+    /// use mean_information::map::{Histogram, encoding::Percent};
+    /// let mut counts = [0; 256];
+    /// (counts[3], counts[255]) = (5, 2); // 255 is -1, unknown
+    /// let histogram = Histogram::from_counts(&counts)?;
+    /// assert_eq!((histogram.cells(), histogram.count(-1_i8)), (7, 2));
+    /// assert_eq!(histogram.tally::<Percent>().mean_information(), 0.8056081421684238); // bits per observed cell
+    /// # Ok::<(), mean_information::Error>(())
+    /// ```
+    pub fn from_counts(counts: &[u64; 256]) -> Result<Self, Error> {
+        let Some(cells) = counts.iter().try_fold(0_u64, |cells, &count| cells.checked_add(count)) else {
+            let cells = counts.iter().map(|&count| count as f64).sum();
+            return Err(Error::out_of_range("number of cells of the histogram", cells, "at most 2^64 - 1"));
+        };
+        Ok(Self { counts: *counts, cells, recent: None })
     }
 
     /// Adds cells.
@@ -200,7 +216,7 @@ impl Histogram {
         self.cells
     }
 
-    /// Computes the tally of the cells in an encoding, skipping values that it does not allow: the bits of
+    /// Computes the tally of the cells in an encoding, without the values that it does not allow: the bits of
     /// [`Encoding::tally`] of all cells counted. At most 256 exact terms are added (Eqs. 2 to 4; proved,
     /// [`sums`](crate::book::sums)).
     ///
@@ -257,6 +273,16 @@ impl Sum for Histogram {
     fn sum<I: Iterator<Item = Self>>(parts: I) -> Self {
         parts.fold(Self::new(), |mut sum, part| {
             sum.merge(&part);
+            sum
+        })
+    }
+}
+
+/// Merges borrowed parts.
+impl<'a> Sum<&'a Self> for Histogram {
+    fn sum<I: Iterator<Item = &'a Self>>(parts: I) -> Self {
+        parts.fold(Self::new(), |mut sum, part| {
+            sum.merge(part);
             sum
         })
     }

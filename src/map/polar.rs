@@ -65,6 +65,18 @@ impl<E: Encoding> PolarMap<E> {
         self.rows.cells()
     }
 
+    /// Returns the stored cells and frees the map.
+    ///
+    /// ```
+    /// use mean_information::map::{PolarMap, encoding::Probability};
+    /// let map = PolarMap::<Probability<f64>>::new(2, 2, 0.4, vec![0.1, 0.9, 0.9, 0.5])?;
+    /// assert_eq!(map.into_cells(), [0.1, 0.9, 0.9, 0.5]);
+    /// # Ok::<(), mean_information::Error>(())
+    /// ```
+    pub fn into_cells(self) -> Vec<E::Stored> {
+        self.rows.into_cells()
+    }
+
     /// Returns the stored cells of one sector, from the sensor outwards; `None` beyond the last.
     pub fn sector(&self, sector: usize) -> Option<&[E::Stored]> {
         self.rows.row(sector)
@@ -82,7 +94,8 @@ impl<E: Encoding> PolarMap<E> {
     }
 
     /// Computes the mean information (Eq. 4), in bits per observed cell; 0 if no cell is observed. It has the bits of
-    /// [`Tally::mean_information`], but is faster, because no entropies are computed.
+    /// [`Tally::mean_information`], within 1.5 ulp of that of the cells given, but is faster, because no entropies are
+    /// computed.
     ///
     /// ```
     /// use mean_information::map::{PolarMap, encoding::Probability};

@@ -3,7 +3,7 @@
 //! The form is a list of the 256 counts, indexed by the values' bits, as NumPy's
 //! `bincount(cells.view(uint8), minlength=256)` returns it.
 
-use super::histogram::{Histogram, TOO_MANY};
+use super::histogram::Histogram;
 use alloc::vec::Vec;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 
@@ -19,6 +19,6 @@ impl<'de> Deserialize<'de> for Histogram {
         let counts = <[u64; 256]>::try_from(counts).map_err(|counts| {
             D::Error::custom(format_args!("a histogram is a list of 256 counts, not of {}", counts.len()))
         })?;
-        Self::from_counts(&counts).ok_or_else(|| D::Error::custom(TOO_MANY))
+        Self::from_counts(&counts).map_err(D::Error::custom)
     }
 }

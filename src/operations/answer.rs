@@ -7,6 +7,7 @@ use core::fmt;
 
 /// The value of an argument.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Value<T> {
     /// A float.
     Float(T),
@@ -29,6 +30,7 @@ impl<T> Value<T> {
 
 /// The result of an operation.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Answer<T> {
     /// A float.
     Float(T),
@@ -38,6 +40,7 @@ pub enum Answer<T> {
 
 /// The reason why there is no result.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Refusal {
     /// An argument outside the domain: the protocol's error `domain`.
     Domain(Error),
@@ -60,6 +63,26 @@ impl core::error::Error for Refusal {}
 
 impl From<Error> for Refusal {
     fn from(error: Error) -> Self {
-        Self::Domain(error)
+        match error {
+            Error::TooManyCells { .. } | Error::TooManySamples { .. } | Error::NoMemory { .. } => {
+                Self::TooLarge(error)
+            }
+            _ => Self::Domain(error),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Neither a limit of this crate nor the memory of a machine is the end of a domain.
+    #[test]
+    fn what_is_too_large_is_in_the_domain() {
+        for error in [Error::too_many_cells(3, 2), Error::no_memory(3)] {
+            assert_eq!(Refusal::from(error.clone()), Refusal::TooLarge(error));
+        }
+        let error = Error::out_of_range("p", 1.5, "0 to 1");
+        assert_eq!(Refusal::from(error.clone()), Refusal::Domain(error));
     }
 }

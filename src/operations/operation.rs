@@ -32,6 +32,7 @@ pub struct Argument {
 
 /// The shape of an argument.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Shape {
     /// A float.
     Float,
@@ -60,6 +61,7 @@ impl Shape {
 
 /// The kind of a result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Outcome {
     /// A float.
     Float,

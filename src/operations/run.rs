@@ -111,7 +111,7 @@ fn expected<T: Real>(weights: &[T], particles: &[Vec<T>]) -> Result<Tally<T>, Er
         return Err(Error::Item { what, index, value, allowed: "that of the first particle" });
     }
     let weights: Vec<f64> = weights.iter().map(|weight| weight.widen()).collect();
-    Hypotheses::new(&maps, &weights)?.expected_map().map(|map| map.tally().clone())
+    Hypotheses::new(&maps, &weights)?.expected_tally()
 }
 
 /// Checks the sensor and the resolution of a room.

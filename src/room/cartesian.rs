@@ -105,7 +105,7 @@ impl<M: InverseSensorModel> CartesianRoom<M> {
     /// Returns the number of columns.
     ///
     /// # Errors
-    /// [`Error::TooManyCells`] if the grid has more samples than the limit.
+    /// [`Error::TooManySamples`] if the grid has more samples than the limit.
     pub fn width(&self) -> Result<u64, Error> {
         self.extent().map(|extent| extent.width())
     }
@@ -113,7 +113,7 @@ impl<M: InverseSensorModel> CartesianRoom<M> {
     /// Returns the number of rows.
     ///
     /// # Errors
-    /// [`Error::TooManyCells`] if the grid has more samples than the limit.
+    /// [`Error::TooManySamples`] if the grid has more samples than the limit.
     pub fn height(&self) -> Result<u64, Error> {
         self.extent().map(|extent| extent.height())
     }
@@ -125,7 +125,7 @@ impl<M: InverseSensorModel> CartesianRoom<M> {
     /// [plateau](InverseSensorModel::plateau). With offsets of 0 or 1/2, one cell in eight is evaluated.
     ///
     /// # Errors
-    /// [`Error::TooManyCells`] if the grid has more samples than the limit; [`Error::OutOfRange`] if the model gives an
+    /// [`Error::TooManySamples`] if the grid has more samples than the limit; [`Error::OutOfRange`] if the model gives an
     /// occupancy outside `[0, 1]`.
     pub fn tally(&self) -> Result<Tally<M::Float>, Error> {
         self.tally_part(0, 1)
@@ -189,8 +189,8 @@ impl<M: InverseSensorModel> CartesianRoom<M> {
     /// [`distance`](Self::distance), or the exact mean over its samples, rounded once.
     ///
     /// # Errors
-    /// [`Error::TooManyCells`] if it has more than `max_cells` cells, or more samples than the limit; [`Error::OutOfRange`] if
-    /// the model gives an occupancy outside `[0, 1]`.
+    /// [`Error::TooManyCells`] if it has more than `max_cells` cells, [`Error::TooManySamples`] if it has more samples than the
+    /// limit; [`Error::OutOfRange`] if the model gives an occupancy outside `[0, 1]`.
     ///
     /// ```
     /// use mean_information::room::CartesianRoom;

@@ -73,7 +73,7 @@ impl<M: InverseSensorModel> PolarRoom<M> {
     /// Returns the number of rings.
     ///
     /// # Errors
-    /// [`Error::TooManyCells`] if they have more samples than the limit.
+    /// [`Error::TooManySamples`] if they have more samples than the limit.
     pub fn rings(&self) -> Result<u64, Error> {
         let samples = &self.samples;
         let along = samples.along_a_beam();
@@ -94,7 +94,7 @@ impl<M: InverseSensorModel> PolarRoom<M> {
     /// Cells of the model's [plateau](InverseSensorModel::plateau) are counted at once, to the same bits.
     ///
     /// # Errors
-    /// [`Error::TooManyCells`] if the rings have more samples than the limit; [`Error::OutOfRange`] if the model gives an
+    /// [`Error::TooManySamples`] if the rings have more samples than the limit; [`Error::OutOfRange`] if the model gives an
     /// occupancy outside `[0, 1]`.
     pub fn tally(&self) -> Result<Tally<M::Float>, Error> {
         let samples = &self.samples;
@@ -113,8 +113,8 @@ impl<M: InverseSensorModel> PolarRoom<M> {
     /// [`distance`](Self::distance), or the exact mean over its samples, rounded once.
     ///
     /// # Errors
-    /// [`Error::TooManyCells`] if it has more than `max_cells` cells, or its rings more samples than the limit;
-    /// [`Error::OutOfRange`] if the model gives an occupancy outside `[0, 1]`.
+    /// [`Error::TooManyCells`] if it has more than `max_cells` cells, [`Error::TooManySamples`] if its rings have more samples
+    /// than the limit; [`Error::OutOfRange`] if the model gives an occupancy outside `[0, 1]`.
     ///
     /// ```
     /// use mean_information::room::PolarRoom;

@@ -9,6 +9,7 @@ use num_traits::Zero;
 
 /// The way in which a cell of a room gets its occupancy.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Sampling {
     /// The model at the cell's centre.
     #[default]
@@ -70,7 +71,7 @@ impl<M: InverseSensorModel> Samples<M> {
 
     /// Creates the error of too many samples.
     pub(super) fn refused(&self, what: &'static str, count: f64) -> Error {
-        Error::TooManyCells { what, count, limit: self.limit }
+        Error::TooManySamples { what, count, limit: self.limit }
     }
 
     /// Evaluates the model at one distance.

@@ -78,15 +78,14 @@ impl Canvas {
     /// Creates the canvas of an area, of which nothing is told: up to two and a half bytes a cell.
     ///
     /// # Errors
-    /// [`Error::TooManyCells`] if there are more cells than the limit, or no memory for them.
+    /// [`Error::TooManyCells`] if there are more cells than the limit; [`Error::NoMemory`].
     pub(super) fn new(area: Area, limit: u64) -> Result<Self, Error> {
         area.within(limit)?;
         let whole = stretches::whole(area);
-        let refused = Error::too_many_cells(area.cells(), limit);
         let codes = Raster::new(whole, NOTHING, u64::MAX);
         match (codes, Stretches::new(whole)) {
             (Ok(codes), Ok(stretches)) => Ok(Self { codes, stretches }),
-            _ => Err(refused),
+            _ => Err(Error::no_memory(area.cells())),
         }
     }
 

@@ -55,7 +55,7 @@ impl<C: Count> Counts<C> {
     /// Creates the counts of an area, all 0.
     ///
     /// # Errors
-    /// [`Error::TooManyCells`] if there are more cells than the limit, or no memory for them.
+    /// [`Error::TooManyCells`] if there are more cells than the limit; [`Error::NoMemory`].
     pub(super) fn new(area: Area, limit: u64) -> Result<Self, Error> {
         let raster = || Raster::new(area, C::new(0), limit);
         let lately = Raster::new(area, 0, limit)?;
@@ -65,7 +65,7 @@ impl<C: Count> Counts<C> {
     /// Makes room for the area `whole`, of which only `used` has counts so far.
     ///
     /// # Errors
-    /// [`Error::TooManyCells`] if `whole` exceeds the limit, or there is no memory; then nothing changes.
+    /// [`Error::TooManyCells`] if `whole` exceeds the limit; [`Error::NoMemory`]. Then nothing changes.
     pub(super) fn make_room(&mut self, used: Area, whole: Area, limit: u64) -> Result<(), Error> {
         self.lately.make_room(used, whole, 0, limit)?;
         for cells in [&mut self.free, &mut self.occupied] {
@@ -77,7 +77,7 @@ impl<C: Count> Counts<C> {
     /// Copies the counts of an area into integers of another width, in which they fit.
     ///
     /// # Errors
-    /// [`Error::TooManyCells`] if there are more cells than the limit, or no memory for them.
+    /// [`Error::TooManyCells`] if there are more cells than the limit; [`Error::NoMemory`].
     pub(super) fn copied<D: Count>(&self, area: Area, limit: u64) -> Result<Counts<D>, Error> {
         let mut copies = Counts::new(area, limit)?;
         for (index, [free, occupied]) in self.counts(area).enumerate() {

@@ -8,7 +8,9 @@ use alloc::vec::Vec;
 /// ```
 /// use mean_information::scan::ScanMap;
 /// let layer = ScanMap::<f64>::new(0.25)?.with_agreement()?.contradictions()?;
-/// assert_eq!(layer.map(|layer| (layer.width(), layer.height(), layer.cells().len())), Some((0, 0, 0)));
+/// let layer = layer.expect("a map with agreement");
+/// assert_eq!((layer.width(), layer.height(), layer.cells().len()), (0, 0, 0));
+/// assert_eq!(layer.into_cells(), []);
 /// # Ok::<(), mean_information::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -42,5 +44,10 @@ impl<T> Layer<T> {
     /// Returns the numbers, row by row from the lowest.
     pub fn cells(&self) -> &[T] {
         &self.cells
+    }
+
+    /// Returns the numbers and frees the rest.
+    pub fn into_cells(self) -> Vec<T> {
+        self.cells
     }
 }

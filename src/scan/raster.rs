@@ -72,11 +72,13 @@ impl Area {
     /// Counts the cells, if there are no more than the limit.
     ///
     /// # Errors
-    /// [`Error::TooManyCells`] otherwise.
+    /// [`Error::TooManyCells`] otherwise; [`Error::NoMemory`] if there are more than can be addressed.
     pub(super) fn within(self, limit: u64) -> Result<usize, Error> {
         let cells = self.cells();
-        let fits = usize::try_from(cells).ok().filter(|_| cells <= u128::from(limit));
-        fits.ok_or(Error::too_many_cells(cells, limit))
+        if cells > u128::from(limit) {
+            return Err(Error::too_many_cells(cells, limit));
+        }
+        usize::try_from(cells).map_err(|_| Error::no_memory(cells))
     }
 
     /// Tells whether all cells of `other` are in this area.
@@ -101,11 +103,11 @@ impl<C: Copy> Raster<C> {
     /// Creates a raster with the same value everywhere.
     ///
     /// # Errors
-    /// [`Error::TooManyCells`] if there are more cells than the limit, or no memory for them.
+    /// [`Error::TooManyCells`] if there are more cells than the limit; [`Error::NoMemory`].
     pub(super) fn new(area: Area, fill: C, limit: u64) -> Result<Self, Error> {
         let count = area.within(limit)?;
         let mut cells = Vec::new();
-        cells.try_reserve_exact(count).map_err(|_| Error::too_many_cells(count as u128, limit))?;
+        cells.try_reserve_exact(count).map_err(|_| Error::no_memory(count as u128))?;
         cells.resize(count, fill);
         Ok(Self { area, cells })
     }
@@ -113,7 +115,7 @@ impl<C: Copy> Raster<C> {
     /// Makes room for the area `whole`, of which only `used` is not `fill` so far.
     ///
     /// # Errors
-    /// [`Error::TooManyCells`] if `whole` exceeds the limit, or there is no memory; then nothing changes.
+    /// [`Error::TooManyCells`] if `whole` exceeds the limit; [`Error::NoMemory`]. Then nothing changes.
     pub(super) fn make_room(&mut self, used: Area, whole: Area, fill: C, limit: u64) -> Result<(), Error> {
         if self.area.holds(whole) {
             return Ok(());

@@ -109,7 +109,9 @@ impl<T: Real, M: InverseSensorModel<Float = T>> Rays<M> {
             (nearest, 0)
         };
         let [x, y] = end.map(|x| x as u64);
-        let words = [x, y, nearest.widen().to_bits(), plateau, u64::from(is_return)];
+        let levels = Levels::new(lattice, &model, reach, nearest, plateau);
+        let [free, wall] = [nearest, levels.wall].map(|p| p.widen().to_bits());
+        let words = [x, y, free, plateau, wall, u64::from(is_return)];
         self.print = self.print.together(Print::of(&words));
         self.area = self.area.union(Area::of_cell(cell_of(end)));
         // Cells that the segment leaves within so many units along its longer axis; the margin has room for what the part lacks.
@@ -118,7 +120,6 @@ impl<T: Real, M: InverseSensorModel<Float = T>> Rays<M> {
             self.free = nearest;
         }
         self.tracks.push(Track::new(self.start, end, if nearest == self.free { sure } else { 0 }));
-        let levels = Levels::new(lattice, &model, reach, nearest, plateau);
         self.segments.push(Segment { levels, model, is_return });
         Ok(())
     }
@@ -128,7 +129,8 @@ impl<T: Real, M: InverseSensorModel<Float = T>> Rays<M> {
         self.area
     }
 
-    /// Returns the print of the scan: of its place, and of each beam's end, free space and return, in any order of beams.
+    /// Returns the print of the scan: of its place, and of each beam's end, free space, obstacle and return, in any order of
+    /// beams.
     pub(super) fn print(&self) -> Print {
         self.print
     }
@@ -136,12 +138,11 @@ impl<T: Real, M: InverseSensorModel<Float = T>> Rays<M> {
     /// Finds what the scan says of each cell, the log-odds limited: each cell once, those at 1/2 left out.
     ///
     /// # Errors
-    /// [`Error::Item`] naming a beam whose model gives no occupancy; [`Error::TooManyCells`] if there is no memory.
+    /// [`Error::Item`] naming a beam whose model gives no occupancy; [`Error::NoMemory`].
     pub(super) fn readings(&self, max_cells: u64) -> Result<Readings, Error> {
         let mut drafts = Drafts::new(self.area, self.free, max_cells)?;
         let mut distances = None;
-        let shared =
-            self.shared(&drafts.canvas).map_err(|_| Error::too_many_cells(self.area.cells(), max_cells))?;
+        let shared = self.shared(&drafts.canvas).map_err(|_| Error::no_memory(self.area.cells()))?;
         // One after another, as what a processor guesses wrongly of one beam holds up the others.
         for (track, &shared) in self.tracks.iter().zip(&shared) {
             track.draw(shared, &mut drafts.canvas);

@@ -131,7 +131,7 @@ impl<T: Real> Drafts<T> {
     /// Creates the drafts of an area; the beams say `free`, if that is a number, of most cells.
     ///
     /// # Errors
-    /// [`Error::TooManyCells`] if there are more cells than the limit, or no memory for them.
+    /// [`Error::TooManyCells`] if there are more cells than the limit; [`Error::NoMemory`].
     pub(super) fn new(area: Area, free: T, max_cells: u64) -> Result<Self, Error> {
         let canvas = Canvas::new(area, max_cells)?;
         Ok(Self {

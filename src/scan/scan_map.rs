@@ -154,8 +154,8 @@ impl<T: Real> ScanMap<T> {
     ///
     /// # Errors
     /// What `model` refuses; [`Error::Item`] naming a beam whose model gives no occupancy, or a place that is not
-    /// within `2^33` cells of the origin; [`Error::TooManyCells`] if the map would exceed its limit. Then the map has
-    /// not changed.
+    /// within `2^33` cells of the origin; [`Error::TooManyCells`] if the map would exceed its limit; [`Error::NoMemory`].
+    /// Then the map has not changed.
     pub fn insert<M, F>(&mut self, scan: &Scan<T>, model: F) -> Result<(), Error>
     where
         M: InverseSensorModel<Float = T>,
@@ -167,14 +167,14 @@ impl<T: Real> ScanMap<T> {
     /// Removes a scan: the exact inverse of [`Self::insert`] with the same scan and model. The map is then, bit for bit, one
     /// that never had the scan, its rectangle of cells included ([`evidence`](crate::book::evidence)).
     ///
-    /// The map knows a scan again by 64 bits of what it took from it: the place of the sensor, and the end, the free space and
-    /// the return of each beam, in any order of the beams. A model that says the same of those and another occupancy of the
-    /// obstacle is refused only where that shows: in cells that no other scan crossed, or by magnitudes below their sums. Else
-    /// it leaves the sums of the readings inserted, less those removed.
+    /// The map knows a scan again by 64 bits of what it took from it: the place of the sensor, and the end, the free space, the
+    /// return and the occupancy of the [obstacle](InverseSensorModel::obstacle) of each beam, in any order of the beams. A model
+    /// of one's own that is the same in those and differs elsewhere is refused only where that shows: in cells that no other
+    /// scan crossed, or by magnitudes below their sums. Else it leaves the sums of the readings inserted, less those removed.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if the map does not hold the scan by this model: it was not inserted, was removed already, or had
-    /// another model; [`Error::TooManyCells`] if there is no memory for its readings; what `model` refuses. Then the map has
+    /// another model; [`Error::NoMemory`] if there is none for its readings; what `model` refuses. Then the map has
     /// not changed.
     ///
     /// ```

@@ -32,7 +32,7 @@ impl Sums {
     /// Creates the sums of an area, all 0.
     ///
     /// # Errors
-    /// [`Error::TooManyCells`] if there are more cells than the limit, or no memory for them.
+    /// [`Error::TooManyCells`] if there are more cells than the limit; [`Error::NoMemory`].
     pub(super) fn new(seen: Area, with_magnitudes: bool, limit: u64) -> Result<Self, Error> {
         Ok(Self { seen, with_magnitudes, cells: Cells::Counted(Counts::new(seen, limit)?) })
     }
@@ -40,7 +40,7 @@ impl Sums {
     /// Grows to the area `whole`, which holds the one so far.
     ///
     /// # Errors
-    /// [`Error::TooManyCells`] if `whole` exceeds the limit, or there is no memory; then no sum changes.
+    /// [`Error::TooManyCells`] if `whole` exceeds the limit; [`Error::NoMemory`]. Then no sum changes.
     pub(super) fn grow(&mut self, whole: Area, limit: u64) -> Result<(), Error> {
         match &mut self.cells {
             Cells::Counted(counts) => counts.make_room(self.seen, whole, limit)?,
@@ -54,7 +54,7 @@ impl Sums {
     /// Makes the sums able to take readings, whatever their levels.
     ///
     /// # Errors
-    /// [`Error::TooManyCells`] if there is no memory; then no sum changes.
+    /// [`Error::NoMemory`]; then no sum changes.
     pub(super) fn learn(&mut self, readings: &Readings, limit: u64) -> Result<(), Error> {
         let is_known = match &mut self.cells {
             Cells::Counted(counts) => {
@@ -90,7 +90,7 @@ impl Sums {
     /// none of the cells. If that is not so, the answer is false, and no sum has changed.
     ///
     /// # Errors
-    /// [`Error::TooManyCells`] if there is no memory; then no sum changes.
+    /// [`Error::NoMemory`]; then no sum changes.
     pub(super) fn take(
         &mut self,
         readings: &Readings,

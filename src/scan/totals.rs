@@ -17,7 +17,7 @@ impl Totals {
     /// Creates the sums of an area from those of each cell and of its magnitudes, row by row from the lowest.
     ///
     /// # Errors
-    /// [`Error::TooManyCells`] if there are more cells than the limit, or no memory for them.
+    /// [`Error::TooManyCells`] if there are more cells than the limit; [`Error::NoMemory`].
     pub(super) fn new(
         area: Area,
         with_magnitudes: bool,
@@ -39,7 +39,7 @@ impl Totals {
     /// Makes room for the area `whole`, of which only `used` has sums so far.
     ///
     /// # Errors
-    /// [`Error::TooManyCells`] if `whole` exceeds the limit, or there is no memory; then no sum changes.
+    /// [`Error::TooManyCells`] if `whole` exceeds the limit; [`Error::NoMemory`]. Then no sum changes.
     pub(super) fn make_room(&mut self, used: Area, whole: Area, limit: u64) -> Result<(), Error> {
         self.log_odds.make_room(used, whole, 0, limit)?;
         if let Some(magnitudes) = &mut self.magnitudes {

@@ -3,7 +3,7 @@
 
 use super::exact_sum::ExactSum;
 use super::map_tally::Tally;
-use crate::error::Error;
+use crate::error::{Error, TallyFault};
 use crate::real::Real;
 
 /// The number of bytes of a tally.
@@ -55,8 +55,9 @@ impl<T: Real> Tally<T> {
     /// Reads a tally from the bytes that [`Tally::to_bytes`] wrote, exactly ([`tally_format`](crate::book::tally_format)).
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if the bytes are of something else, of a later version, of floats of another format than `T`
-    /// (which [`format_of_bytes`] tells), damaged (every flipped bit is found), or of sums and counts that no cells have.
+    /// [`Error::TallyBytes`] if the bytes are of something else, of a later version, of another length, damaged, or of floats of
+    /// another format than `T` (which [`format_of_bytes`] tells); [`Error::OutOfRange`] if they are of sums and counts that no
+    /// cells have. The checksum finds every single flipped bit and up to 32 in a row; of other damage it misses one in `2^32`.
     ///
     /// ```
     /// use mean_information::Tally;
@@ -67,11 +68,11 @@ impl<T: Real> Tally<T> {
     /// assert!(Tally::<f32>::from_bytes(&bytes).is_err());
     /// ```
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
-        let body = checked(bytes)?;
+        let body = checked(bytes).map_err(Error::TallyBytes)?;
         let format = half(body, 6);
         if format != bits::<T>() {
             let allowed = if bits::<T>() == 32 { "32" } else { "64" };
-            return Err(Error::out_of_range(FORMAT, format.into(), allowed));
+            return Err(Error::TallyBytes(TallyFault::OtherFormat { bits: format, allowed }));
         }
         let counts = [0, 1, 2].map(|k| word(body, COUNTS + 8 * k));
         let sum = |start| ExactSum { limbs: core::array::from_fn(|limb| word(body, start + 8 * limb)) };
@@ -82,7 +83,7 @@ impl<T: Real> Tally<T> {
 /// Returns the name of the format of a tally's floats, "f32" or "f64", from the bytes that [`Tally::to_bytes`] wrote.
 ///
 /// # Errors
-/// [`Error::OutOfRange`] as [`Tally::from_bytes`], but for the sums and counts.
+/// [`Error::TallyBytes`] as [`Tally::from_bytes`], whatever the format.
 ///
 /// ```
 /// use mean_information::{Tally, tally::format_of_bytes};
@@ -90,15 +91,13 @@ impl<T: Real> Tally<T> {
 /// assert!(format_of_bytes(b"a tally").is_err());
 /// ```
 pub fn format_of_bytes(bytes: &[u8]) -> Result<&'static str, Error> {
-    match half(checked(bytes)?, 6) {
+    let body = checked(bytes).map_err(Error::TallyBytes)?;
+    match half(body, 6) {
         32 => Ok(f32::FORMAT),
         64 => Ok(f64::FORMAT),
-        other => Err(Error::out_of_range(FORMAT, other.into(), "32 or 64")),
+        bits => Err(Error::TallyBytes(TallyFault::OtherFormat { bits, allowed: "32 or 64" })),
     }
 }
-
-/// The name of the number at byte 6.
-const FORMAT: &str = "bits of a float in the bytes of a tally";
 
 /// Returns the bits of a float.
 fn bits<T: Real>() -> u16 {
@@ -106,29 +105,23 @@ fn bits<T: Real>() -> u16 {
 }
 
 /// Returns the bytes before the checksum, whose version, number and checksum are right.
-fn checked(bytes: &[u8]) -> Result<&[u8], Error> {
-    // The version first: later ones may be of another length.
+fn checked(bytes: &[u8]) -> Result<&[u8], TallyFault> {
+    let shared = bytes.len().min(MAGIC.len());
+    if bytes[..shared] != MAGIC[..shared] {
+        return Err(TallyFault::NoTally);
+    }
+    // The version before the length: later ones may be of another.
     if bytes.len() >= 6 {
-        let first = u32::from_le_bytes(core::array::from_fn(|k| bytes[k]));
-        if first != u32::from_le_bytes(MAGIC) {
-            let allowed = "172576137, \"\\x89MI\\n\": these are the bytes of something else";
-            return Err(Error::out_of_range("first four bytes of a tally", first.into(), allowed));
-        }
-        let version = half(bytes, 4);
-        if version != VERSION {
-            let allowed = if version > VERSION { "1: a later release wrote them" } else { "1" };
-            return Err(Error::out_of_range("version of the bytes of a tally", version.into(), allowed));
+        match half(bytes, 4) {
+            VERSION => {}
+            0 => return Err(TallyFault::Damaged),
+            version => return Err(TallyFault::LaterVersion { version }),
         }
     }
     let (TALLY_BYTES, Some((body, checksum))) = (bytes.len(), bytes.split_last_chunk()) else {
-        return Err(Error::out_of_range("number of bytes of a tally", bytes.len() as f64, "324"));
+        return Err(TallyFault::Length { given: bytes.len() });
     };
-    let checksum = u32::from_le_bytes(*checksum);
-    if checksum != crc32(body) {
-        let allowed = "the CRC-32 of the bytes before it: they are damaged";
-        return Err(Error::out_of_range("checksum of the bytes of a tally", checksum.into(), allowed));
-    }
-    Ok(body)
+    if u32::from_le_bytes(*checksum) == crc32(body) { Ok(body) } else { Err(TallyFault::Damaged) }
 }
 
 /// Returns the integer of two bytes at `start`.

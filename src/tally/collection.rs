@@ -1,4 +1,4 @@
-//! Tallies as collections: cells are collected, parts of a map are summed.
+//! Tallies as collections: cells are collected, parts of a map are added and summed.
 
 use super::information_sum::InformationSum;
 use super::map_tally::Tally;
@@ -6,6 +6,7 @@ use crate::cell::Cell;
 use crate::real::Real;
 use core::borrow::Borrow;
 use core::iter::Sum;
+use core::ops::{Add, AddAssign};
 
 /// Implements `collect`, `extend` and `sum` for a type with `new`, `add` and `merge`.
 macro_rules! impl_collection {
@@ -34,6 +35,30 @@ macro_rules! impl_collection {
                     sum.merge(part.borrow());
                     sum
                 })
+            }
+        }
+
+        /// Merges two parts; panics as `merge` does.
+        impl<T: Real> Add for $sums<T> {
+            type Output = Self;
+
+            fn add(mut self, other: Self) -> Self {
+                self.merge(&other);
+                self
+            }
+        }
+
+        /// Merges another part into this one; panics as `merge` does.
+        impl<T: Real> AddAssign for $sums<T> {
+            fn add_assign(&mut self, other: Self) {
+                self.merge(&other);
+            }
+        }
+
+        /// Merges a borrowed part into this one; panics as `merge` does.
+        impl<T: Real> AddAssign<&Self> for $sums<T> {
+            fn add_assign(&mut self, other: &Self) {
+                self.merge(other);
             }
         }
 

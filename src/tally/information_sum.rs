@@ -67,8 +67,8 @@ impl<T: Real> InformationSum<T> {
         self.sum.add_many(cell.information(), count);
     }
 
-    /// Creates the sum of cells from their occupancies, skipping values that are not probabilities, as
-    /// [`Tally::from_occupancies`] does.
+    /// Creates the sum of cells from their occupancies, without the values that are no probabilities, as
+    /// [`Tally::from_occupancies`] does: if there are any, [`InformationSum::cells`] is below the number of values given.
     ///
     /// The sum is that of the correctly rounded information of the cells, exactly (proved,
     /// [`sums`](crate::book::sums)).
@@ -88,7 +88,8 @@ impl<T: Real> InformationSum<T> {
         sums
     }
 
-    /// Creates the sum of cells from their log-odds (nats), skipping NaN.
+    /// Creates the sum of cells from their log-odds (nats), without NaN: if there are any, [`InformationSum::cells`] is below
+    /// the number of values given.
     ///
     /// The sum is that of the correctly rounded information of the cells, exactly (proved,
     /// [`sums`](crate::book::sums)), as in [`Tally::from_log_odds`].

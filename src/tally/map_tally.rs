@@ -82,14 +82,23 @@ impl<T: Real> Tally<T> {
         self.information.add_many(cell.information(), count);
     }
 
-    /// Creates the tally of cells from their occupancies, skipping values that are not probabilities.
+    /// Creates the tally of cells from their occupancies, without the values that are no probabilities: if there are any,
+    /// [`Tally::cells`] is below the number of values given.
     ///
     /// Equal, bit for bit, to the tally of the single cells (Eqs. 2 to 4; proved,
     /// [`sums`](crate::book::sums), "Many cells at once"), and many times as fast (feature `std`): blocks
     /// of cells are summed up by the processor's vector unit. The first call makes a table of 384 KB (`f64`),
     /// in two milliseconds.
     ///
-    /// A value outside `[0, 1]`, or NaN, is not counted in [`Tally::cells`]; [`Grid::new`](crate::map::Grid::new) refuses it.
+    /// Those are values outside `[0, 1]`, and NaN; [`Grid::new`](crate::map::Grid::new) refuses them. Percentages as floats
+    /// are mostly such values, and those that are not mean something else:
+    ///
+    /// ```
+    /// use mean_information::Tally;
+    /// let percentages = [0.0, 50.0, 100.0, 1.0];
+    /// let tally = Tally::from_occupancies(&percentages);
+    /// assert_eq!((tally.cells(), tally.free(), tally.occupied()), (2, 1, 1)); // of 4; and 1 % is certainly occupied
+    /// ```
     ///
     /// ```
     /// use mean_information::{Tally, cell::Cell};
@@ -112,7 +121,8 @@ impl<T: Real> Tally<T> {
         tally
     }
 
-    /// Creates the tally of cells from their log-odds (nats), skipping NaN.
+    /// Creates the tally of cells from their log-odds (nats), without NaN: if there are any, [`Tally::cells`] is below the
+    /// number of values given.
     ///
     /// Equal, bit for bit, to the tally of the single cells (Eqs. 2 to 4; proved, [`sums`](crate::book::sums), "Blocks of
     /// log-odds"), and many times as fast (feature `std`), as [`Tally::from_occupancies`] is. The first call makes a table

@@ -16,6 +16,7 @@ mod map_tally;
 mod portable;
 mod removal;
 
+pub use crate::error::TallyFault;
 pub use bytes::{TALLY_BYTES, format_of_bytes};
 pub use exact_sum::ExactSum;
 pub use information_sum::InformationSum;

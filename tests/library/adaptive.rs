@@ -16,7 +16,7 @@ use proptest::prelude::*;
 /// The errors claimed on the battery, by every rule at several tolerances, are all above the true ones.
 fn no_claim_is_below_the_truth<T: Real + num_traits::Float>(tolerances: &[f64], overflowing: usize) {
     let limit = 200_000;
-    for rule in Rule::ALL {
+    for &rule in Rule::ALL {
         for &tolerance in tolerances {
             let settings = GaussKronrod::new().rule(rule).relative(T::nearest(tolerance)).limit(limit);
             let integrate = |case: &Case| {
@@ -26,7 +26,7 @@ fn no_claim_is_below_the_truth<T: Real + num_traits::Float>(tolerances: &[f64], 
             let mut not_finite = 0;
             for case in cases() {
                 let estimate = integrate(&case);
-                let Estimate { value, error, status, evaluations } = estimate;
+                let Estimate { value, error, status, evaluations, .. } = estimate;
                 let context = format!("{rule:?}, {tolerance:e}, {case:?}, {estimate:?}");
                 assert!(evaluations <= limit, "{context}");
                 if let Status::NotFinite { lower, upper } = status {
@@ -76,7 +76,7 @@ fn nothing_but_a_peak_needs_a_name() {
     let is_peak = |case: &&Case| ["gaussian", "peak"].iter().any(|name| case.family.starts_with(name));
     for case in cases().iter().filter(|case| !is_peak(case)) {
         let [from, to] = [case.points[0], case.points[case.points.len() - 1]];
-        for rule in Rule::ALL {
+        for &rule in Rule::ALL {
             let settings = GaussKronrod::new().rule(rule).relative(1e-8).limit(20_000);
             let estimate = settings.integrate(case.integrand::<f64>(), from, to).expect("good settings");
             assert!(case.error(estimate.value) <= estimate.error, "{rule:?}, {case:?}, {estimate:?}");
@@ -93,7 +93,9 @@ fn reversed_cases_are_negative() {
             let [from, to] = ends.map(|k: usize| case.points[k]);
             settings.integrate(case.integrand::<f64>(), from, to).expect("good settings")
         });
-        assert_eq!(back, Estimate { value: -forth.value, ..forth }, "{case:?}");
+        let mut negative = forth;
+        negative.value = -forth.value;
+        assert_eq!(back, negative, "{case:?}");
     }
 }
 
@@ -187,7 +189,7 @@ fn any_rule() -> impl Strategy<Value = Rule> {
 /// Both halves of the first panel are singular, and none of it is noise.
 #[test]
 fn singularities_at_both_ends_are_not_noise() {
-    for rule in Rule::ALL {
+    for &rule in Rule::ALL {
         let settings = GaussKronrod::<f32>::new().rule(rule).relative(1e-4);
         let half_disc = settings.integrate(|x| (x * (3.0 - x)).sqrt(), 0.0, 3.0).unwrap();
         let truth = core::f32::consts::PI * 9.0 / 8.0;

@@ -21,6 +21,7 @@ fn extrema(weight: Weight) -> [f64; 2] {
     match weight {
         Weight::Radial => [0.457_663_790_838_69, 1.902_825_719_235_39],
         Weight::Area => [1.177_410_022_515_47, 2.549_942_984_682_18],
+        other => panic!("{other:?}: not known"),
     }
 }
 

@@ -8,10 +8,11 @@ use proptest::prelude::*;
 /// A function of many cells and that of one.
 type Pair<T> = (&'static str, fn(&[T], &mut [T]), fn(T) -> T);
 
-fn of_occupancies<T: Real>() -> [Pair<T>; 2] {
+fn of_occupancies<T: Real>() -> [Pair<T>; 3] {
     [
         ("entropy", elementwise::entropy, cell::entropy),
         ("information", elementwise::information, cell::information),
+        ("log_odds_from_occupancy", elementwise::log_odds_from_occupancy, cell::log_odds_from_occupancy),
     ]
 }
 

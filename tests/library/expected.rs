@@ -226,6 +226,15 @@ fn row(resolution: f64, x: f64, cells: &[f64]) -> Map {
     Grid::new(cells.len(), 1, Geometry::new(resolution, [x, 0.25]).unwrap(), cells.to_vec()).unwrap()
 }
 
+/// Within the limit, and beyond any memory.
+#[test]
+fn a_map_without_memory_is_not_beyond_the_limit() {
+    let maps = [row(1.0, 0.0, &[0.25]), row(1.0, 4e18, &[0.25])];
+    let hypotheses = Hypotheses::new(&maps, &[3.0, 5.0]).unwrap().with_max_cells(u64::MAX);
+    let refused = hypotheses.expected_map().map(drop).unwrap_err();
+    assert!(matches!(refused, Error::NoMemory { cells: 4e18, .. }), "{refused}");
+}
+
 /// The mean is not 1/2, but the nearest float is: the cell was observed all the same.
 #[test]
 fn a_cell_that_one_unlikely_particle_saw_is_observed() {

@@ -82,7 +82,7 @@ proptest! {
 #[test]
 fn what_cannot_be_fused_is_named() {
     let refused = |p: &[f64]| fuse(p).unwrap_err();
-    assert_eq!(refused(&[0.25, 1.0, 0.5, 0.0]), Error::Contradiction { free: 3, occupied: 1 });
+    assert!(matches!(refused(&[0.25, 1.0, 0.5, 0.0]), Error::Contradiction { free: 3, occupied: 1, .. }));
     assert_eq!(
         refused(&[0.0, 1.0]).to_string(),
         "observations 0 and 1 are 0 and 1, which contradict each other"

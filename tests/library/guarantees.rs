@@ -40,6 +40,7 @@ pub(crate) fn guarantees() -> Vec<Guarantee> {
         elementary::ln::<f64> => "elementary::ln", 0.5, Proved;
         elementary::sqrt::<f64> => "elementary::sqrt", 0.5, Proved;
         <f64 as Scalar>::exp_m1 => "Scalar::exp_m1", 2.0, Proved;
+        <f64 as Scalar>::x_ln_x => "Scalar::x_ln_x", 1.5, Proved;
         cell::entropy::<f64> => "cell::entropy", 0.5, Proved;
         cell::information::<f64> => "cell::information", 0.5, Proved;
         cell::entropy_from_log_odds::<f64> => "cell::entropy_from_log_odds", 0.5, Proved;
@@ -52,6 +53,7 @@ pub(crate) fn guarantees() -> Vec<Guarantee> {
         elementwise::entropy_from_log_odds::<f64> => "elementwise::entropy_from_log_odds", 0.5, Proved;
         elementwise::information_from_log_odds::<f64> => "elementwise::information_from_log_odds", 0.5, Proved;
         elementwise::occupancy_from_log_odds::<f64> => "elementwise::occupancy_from_log_odds", 0.5, Proved;
+        elementwise::log_odds_from_occupancy::<f64> => "elementwise::log_odds_from_occupancy", 0.5, Proved;
         ExactSum::value::<f64> => "ExactSum::value", 0.5, Proved;
         ExactSum::mean::<f64> => "ExactSum::mean", 0.5, Proved;
         Tally::<f64>::entropy => "Tally::entropy", 1.5, Proved;
@@ -59,13 +61,17 @@ pub(crate) fn guarantees() -> Vec<Guarantee> {
         Tally::<f64>::mean_information => "Tally::mean_information", 1.5, Proved;
         InformationSum::<f64>::total => "InformationSum::total", 1.5, Proved;
         InformationSum::<f64>::mean => "InformationSum::mean", 1.5, Proved;
+        map::Grid::<map::encoding::Percent>::mean_information => "Grid::mean_information", 1.5, Proved;
+        map::PolarMap::<map::encoding::Percent>::mean_information => "PolarMap::mean_information", 1.5, Proved;
         map::Grid::<map::encoding::Percent>::pooled => "Grid::pooled", 0.5, Proved;
         GaussianSensor::<f64>::occupancy => "GaussianSensor::occupancy", 0.5, Proved;
         GaussianSensor::<f64>::reach => "GaussianSensor::reach", 2.0, Proved;
         fusion::fuse::<f64> => "fusion::fuse", 0.5, Proved;
         expected::weighted_mean::<f64> => "expected::weighted_mean", 0.5, Proved;
         expected::ExpectedMap::<f64>::grid => "ExpectedMap::grid", 0.5, Proved;
+        Particles::mean_of_mean_information => "Hypotheses::mean_of_mean_information", 0.5, Proved;
         Particles::log_linear_pool => "Hypotheses::log_linear_pool", 0.5, Proved;
+        scan::ScanMap::<f64>::probabilities => "ScanMap::probabilities", 0.501, Proved;
         scan::ScanMap::<f64>::agreement => "ScanMap::agreement", 0.5, Proved;
         limit::rigorous::<GaussianSensor<f64>> => "limit::rigorous", 0.0, Proved;
         limit::closed_form::<f64> => "limit::closed_form", 0.501, Proved;

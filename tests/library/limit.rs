@@ -93,7 +93,7 @@ fn twelve_digits_in_545_evaluations() {
         let ratio = exp(ln(10.0) * 0.1 * f64::from(tenth));
         let sensor = GaussianSensor::new(0.25 * ratio, 0.25).unwrap();
         for ((k, rule), weight) in
-            Rule::ALL.into_iter().enumerate().flat_map(|rule| WEIGHTS.map(|weight| (rule, weight)))
+            Rule::ALL.iter().copied().enumerate().flat_map(|rule| WEIGHTS.map(|weight| (rule, weight)))
         {
             let estimate =
                 adaptive(&sensor, weight, &GaussKronrod::new().relative(1e-12).rule(rule)).unwrap();
@@ -163,6 +163,19 @@ fn a_tolerance_above_the_deficit_needs_no_integration() {
         let limit = adaptive(&sensor, weight, &GaussKronrod::new().absolute(1e-3)).unwrap();
         assert!(limit.evaluations <= 3 && limit.error < 1e-3, "{limit:?}");
         assert!((limit.value - closed_form(&sensor, weight)).abs() <= limit.error);
+    }
+}
+
+#[test]
+fn a_scale_that_is_no_length_is_refused_by_its_name() {
+    for reach in [-7.0, 0.0, f64::NAN, f64::INFINITY] {
+        let model = Ramp { low: 0.0625, high: 0.875, reach };
+        let refused = adaptive(&model, Weight::Area, &GaussKronrod::new()).unwrap_err().to_string();
+        assert_eq!(
+            refused,
+            format!("scale of the model is {reach}, allowed is positive and finite, in metres")
+        );
+        assert_eq!(rigorous(&model, Weight::Area, &Rigorous::default()).unwrap_err().to_string(), refused);
     }
 }
 

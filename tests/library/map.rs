@@ -254,7 +254,28 @@ fn a_histogram_by_parts() {
     assert_eq!((&counted, counted.cells()), (&all, 70_000));
     extended.extend(cells.iter().map(|&cell| cell as u8));
     assert_eq!((&extended, extended.cells()), (&all, 70_000));
-    assert_eq!([].into_iter().sum::<Histogram>(), Histogram::new());
+    assert_eq!(<[Histogram; 0]>::into_iter([]).sum::<Histogram>(), Histogram::new());
+    let parts = [&cells[..999], &cells[999..]].map(Histogram::from_cells);
+    assert_eq!(parts.iter().sum::<Histogram>(), all);
+    assert_eq!(Histogram::from_counts(all.counts()), Ok(all));
+    let mut counts = [0; 256];
+    (counts[3], counts[200]) = (u64::MAX, 1);
+    assert!(matches!(
+        Histogram::from_counts(&counts),
+        Err(Error::OutOfRange { value: 18446744073709551616.0, .. })
+    ));
+}
+
+#[test]
+fn a_percentage_is_the_float_nearest_to_its_hundredth() {
+    for percent in i8::MIN..=i8::MAX {
+        let expected = match percent {
+            -1 => Some(0.5),
+            0..=100 => Some(f64::from(percent) / 100.0),
+            _ => None,
+        };
+        assert_eq!(Percent::occupancy(percent), expected, "{percent}");
+    }
 }
 
 #[test]

@@ -22,6 +22,7 @@ fn the_page_has_the_list() {
             Shape::Float => argument.name.to_owned(),
             Shape::List => format!("{}[]", argument.name),
             Shape::Rows => format!("{}[][]", argument.name),
+            other => panic!("how is a {} written?", other.name()),
         });
         let arguments = arguments.collect::<Vec<_>>().join(", ");
         let Operation { name, function, tolerance_ulp, .. } = operation;
@@ -137,6 +138,7 @@ fn refuses<T: Real>(operation: &Operation, arguments: &[Value<T>]) {
             Value::Float(x) => *x = T::nan(),
             Value::List(list) => list[1] = T::nan(),
             Value::Rows(rows) => rows[1][1] = T::nan(),
+            other => panic!("where is the number in {other:?}?"),
         }
         assert!(matches!(operation.run(&bad), Err(Refusal::Domain(_))), "{}, argument {k}", operation.name);
         bad[k] = match bad[k] {

@@ -91,6 +91,12 @@ proptest! {
         let mut right = last;
         right.merge(&middle);
         right.merge(&first);
+        prop_assert_eq!(first.clone() + middle.clone(), [&first, &middle].into_iter().sum());
+        let mut added = middle + first;
+        added += &tally(&map[b..]);
+        prop_assert_eq!(&added, &left);
+        added += Tally::from_occupancies(&map);
+        prop_assert_eq!(added.cells(), 2 * left.cells());
         prop_assert_eq!(&left, &tally(&map));
         prop_assert_eq!(left, right);
     }

@@ -3,8 +3,8 @@
 use super::common::occupancy;
 use mean_information::expected::Hypotheses;
 use mean_information::map::{Geometry, Grid, encoding::Probability};
-use mean_information::tally::{TALLY_BYTES, format_of_bytes};
-use mean_information::{Real, Tally, cell::Cell};
+use mean_information::tally::{TALLY_BYTES, TallyFault, format_of_bytes};
+use mean_information::{Error, Real, Tally, cell::Cell};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -51,6 +51,13 @@ fn seal(mut bytes: [u8; TALLY_BYTES]) -> [u8; TALLY_BYTES] {
 
 fn refusal<T: Real>(bytes: &[u8]) -> String {
     Tally::<T>::from_bytes(bytes).expect_err("no tally").to_string()
+}
+
+fn fault<T: Real>(bytes: &[u8]) -> TallyFault {
+    match Tally::<T>::from_bytes(bytes) {
+        Err(Error::TallyBytes(fault)) => fault,
+        other => panic!("{other:?}"),
+    }
 }
 
 #[test]
@@ -106,13 +113,16 @@ fn every_flipped_bit_is_found() {
         for bit in 0..8 * TALLY_BYTES {
             let mut bytes = good;
             bytes[bit / 8] ^= 1 << (bit % 8);
-            let words = if single { refusal::<f32>(&bytes) } else { refusal::<f64>(&bytes) };
-            let expected = match bit / 8 {
-                0..4 => "first four bytes",
-                4..6 => "version",
-                _ => "checksum",
+            let found = if single { fault::<f32>(&bytes) } else { fault::<f64>(&bytes) };
+            let is_it = match bit {
+                0..32 => found == TallyFault::NoTally,
+                33..48 => {
+                    matches!(found, TallyFault::LaterVersion { version, .. } if version == 1 + (1 << (bit - 32)))
+                }
+                // The first of these makes version 0, which no release wrote.
+                32 | 48.. => found == TallyFault::Damaged,
             };
-            assert!(words.starts_with(expected), "bit {bit}: {words}");
+            assert!(is_it, "bit {bit}: {found}");
         }
     }
 }
@@ -122,9 +132,14 @@ fn other_bytes_are_named() {
     let good = golden(&GOLDEN_F64);
     assert_eq!(refusal::<f64>(&[]), "number of bytes of a tally is 0, allowed is 324");
     assert_eq!(refusal::<f64>(&good[..323]), "number of bytes of a tally is 323, allowed is 324");
-    let text = "first four bytes of a tally is 543518564, allowed is 172576137, \"\\x89MI\\n\": these are the bytes of \
-                something else";
-    assert_eq!(refusal::<f64>(b"doe a deer"), text);
+    assert!(matches!(fault::<f64>(&good[..5]), TallyFault::Length { given: 5, .. }));
+    for other in [&b"doe a deer"[..], b"\x89PN", b"\x89PNG\r\n"] {
+        assert_eq!(refusal::<f64>(other), "the bytes are those of something else than a tally");
+    }
+    let mut damaged = good;
+    damaged[40] ^= 1;
+    let text = "the bytes of the tally are damaged: their checksum is another";
+    assert_eq!(refusal::<f64>(&damaged), text);
     // A later version may be of another length.
     let later = [&good[..4], &[2, 0], &good[6..100]].concat();
     let text = "version of the bytes of a tally is 2, allowed is 1: a later release wrote them";

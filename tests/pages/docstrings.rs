@@ -291,3 +291,49 @@ fn a_guarantee_is_in_the_docstring() {
         );
     }
 }
+
+/// Whether a docstring says "within 1.5 ulp" or "at most 2 ulp".
+fn states_a_bound(doc: &str) -> bool {
+    let words: Vec<_> = doc.split_whitespace().filter(|&word| word != "///").collect();
+    words.windows(3).any(|words| {
+        ["within", "most"].contains(&words[0])
+            && words[1].parse::<f64>().is_ok()
+            && words[2].starts_with("ulp")
+    })
+}
+
+/// And the page has the bound of each docstring, in a row or in words about the function or its type.
+#[test]
+fn a_bound_in_a_docstring_is_on_the_page() {
+    let page = read("docs/guarantees.md");
+    let (mut count, mut faults) = (0, Vec::new());
+    for Function { place, name, of_type, .. } in all().iter().filter(|function| states_a_bound(&function.doc))
+    {
+        count += 1;
+        let (of, function) = name.split_once("::").unwrap();
+        let free = of_type.is_empty() && page.contains(&format!("::{function}`"));
+        if !free && !page.contains(&format!("`{name}`")) && !page.contains(&format!("`{of}`")) {
+            faults.push(format!("{place} {name}"));
+        }
+    }
+    assert!(count >= 12, "{count}");
+    assert!(faults.is_empty(), "{faults:#?}");
+}
+
+/// Clippy reads no examples: a function that it forbids may not stand there either, in the place of one of `Scalar`.
+#[test]
+fn an_example_calls_no_function_that_is_forbidden() {
+    let list = read("clippy.toml");
+    let forbidden = list.lines().filter_map(|line| line.trim().strip_prefix("\"f64::")?.strip_suffix("\","));
+    let calls: Vec<_> = forbidden.flat_map(|name| ["f32", "f64"].map(|f| format!("_{f}.{name}("))).collect();
+    assert!(calls.len() > 40);
+    let mut faults = Vec::new();
+    for file in sources("src") {
+        for (k, line) in read(&file).lines().enumerate() {
+            if line.trim_start().starts_with("//") && calls.iter().any(|call| line.contains(call)) {
+                faults.push(format!("{}:{}: {line}", file.display(), k + 1));
+            }
+        }
+    }
+    assert!(faults.is_empty(), "{faults:#?}");
+}

@@ -35,6 +35,7 @@ fn arguments<T: Real>(operation: &Operation, test: &Json) -> Vec<Value<T>> {
         Shape::Float => Value::Float(scalar(x)),
         Shape::List => Value::List(list(x)),
         Shape::Rows => Value::Rows(x.as_array().expect("rows").iter().map(list).collect()),
+        other => panic!("{}: no {} is read", test["id"], other.name()),
     };
     operation.arguments.iter().map(|argument| value(argument.shape, &named[argument.name])).collect()
 }

@@ -246,7 +246,7 @@ fn main() {
         "| method | relative tolerance | claim below truth | infinite claim | done | no value | evaluations |"
     );
     println!("|---|---|---|---|---|---|---|");
-    for rule in Rule::ALL {
+    for &rule in Rule::ALL {
         for tolerance in [1e-2, 1e-4, 1e-6] {
             in_f32(rule, tolerance, &cases);
         }

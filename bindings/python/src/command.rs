@@ -60,6 +60,7 @@ fn run<'py, T: Real + for<'a> FromPyObject<'a, 'py, Error = PyErr> + IntoPyObjec
             Shape::Float => Value::Float(given.extract::<T>()?),
             Shape::List => Value::List(given.extract::<Vec<T>>()?),
             Shape::Rows => Value::Rows(given.extract::<Vec<Vec<T>>>()?),
+            other => return Err(PyTypeError::new_err(format!("{name} takes a {}", other.name()))),
         });
     }
     match py.detach(|| operation.run(&values)) {
@@ -67,6 +68,7 @@ fn run<'py, T: Real + for<'a> FromPyObject<'a, 'py, Error = PyErr> + IntoPyObjec
         Ok(Answer::Count(count)) => Ok(count.into_pyobject(py)?.into_any()),
         Err(Refusal::Domain(error)) => Err(PyValueError::new_err(error.to_string())),
         Err(Refusal::TooLarge(error)) => Err(PyOverflowError::new_err(error.to_string())),
-        Err(Refusal::Arguments) => Err(PyTypeError::new_err("arguments of other shapes")),
+        Ok(_) => Err(PyTypeError::new_err("a result of another kind")),
+        Err(_) => Err(PyTypeError::new_err("arguments of other shapes")),
     }
 }

@@ -9,8 +9,9 @@ use std::path::Path;
 
 /// Converts what the library refuses: `ValueError`.
 pub(crate) fn refused(error: mean_information::Error) -> PyErr {
+    use mean_information::Error::{NoMemory, TooManyCells, TooManySamples};
     match error {
-        mean_information::Error::TooManyCells { .. } => PyMemoryError::new_err(error.to_string()),
+        TooManyCells { .. } | TooManySamples { .. } | NoMemory { .. } => PyMemoryError::new_err(error.to_string()),
         _ => PyValueError::new_err(error.to_string()),
     }
 }

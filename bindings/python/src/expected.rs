@@ -151,7 +151,7 @@ fn grid<E: Encoding>(
     let map = Geometry::new(1.0, [0.0; 2]).and_then(|geometry| Grid::new(width, height, geometry, copied));
     map.map_err(|error| {
         PyValueError::new_err(match error {
-            Error::Cell { row, column, value, allowed } => {
+            Error::Cell { row, column, value, allowed, .. } => {
                 let (row, column) = place(row, column);
                 format!("particles[{particle}][{row}, {column}] is {}, allowed is {allowed}", shown(value))
             }

@@ -32,7 +32,7 @@ impl<T: Real> Computed<T> {
 
 impl<T: Real> From<Estimate<T>> for Computed<T> {
     fn from(estimate: Estimate<T>) -> Self {
-        let Estimate { value, error, status, evaluations } = estimate;
+        let Estimate { value, error, status, evaluations, .. } = estimate;
         let (lower, upper) = ((value - error).max(T::zero()), (value + error).min(T::one()));
         Self { value, lower, upper, status: name(status), evaluations }
     }
@@ -40,7 +40,7 @@ impl<T: Real> From<Estimate<T>> for Computed<T> {
 
 impl<T: Real> From<Enclosure<T>> for Computed<T> {
     fn from(enclosure: Enclosure<T>) -> Self {
-        let Enclosure { lower, upper, status, evaluations } = enclosure;
+        let Enclosure { lower, upper, status, evaluations, .. } = enclosure;
         Self { value: lower + (upper - lower) * T::HALF, lower, upper, status: name(status), evaluations }
     }
 }

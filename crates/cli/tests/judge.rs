@@ -22,6 +22,22 @@ def observed(cells):
         return math.nan
     return sum(p != 0.5 for p in cells)
 
+def whole(p):
+    bits = entropy(p)
+    return int(bits) if bits == int(bits) else bits
+
+class Count:
+    def __init__(self, cells):
+        self.cells = cells
+    def __index__(self):
+        return self.cells
+    def __float__(self):
+        return float(self.cells)
+
+def counted(cells):
+    count = observed(cells)
+    return Count(count) if count == count else count
+
 def answer(run):
     try:
         h = entropy(float.fromhex(run["args"]["p"]))
@@ -96,6 +112,19 @@ fn functions_are_judged() {
     assert!(text(&output.stdout).contains("    entropy/f64/"), "{}", text(&output.stdout));
     let output = judge(&["--ops", "cell.*", "--call", &format!("{file}:entropy")]).unwrap();
     assert_eq!(output.status.code(), Some(2));
+}
+
+/// An integer stands for a float where the operation has floats, and any integer for a count, as NumPy's do.
+#[test]
+fn integers_are_read_as_the_operation_means_them() {
+    let folder = Folder::new();
+    let file = folder.text_path("functions.py");
+    fs::write(&file, FAULTY).unwrap();
+    let call = |op, name: &str| judge(&["--ops", op, "--call", &format!("{file}:{name}")]);
+    for (op, name, same) in [("cell.entropy", "whole", "entropy"), ("map.observed", "counted", "observed")] {
+        let Some(output) = call(op, name) else { return };
+        assert_eq!(text(&output.stdout), text(&call(op, same).unwrap().stdout), "{}", text(&output.stderr));
+    }
 }
 
 /// A port whose answers are those of the library, but for what a change makes of their text.

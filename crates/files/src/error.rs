@@ -272,7 +272,8 @@ impl From<mean_information::Error> for Error {
             words = words.replacen(&value.to_string(), &short(value), 1);
         }
         let kind = match error {
-            Refused::TooManyCells { .. } => ErrorKind::TooLarge,
+            Refused::TooManyCells { .. } | Refused::TooManySamples { .. } => ErrorKind::TooLarge,
+            Refused::NoMemory { .. } => ErrorKind::OutOfMemory,
             _ => ErrorKind::OutOfRange,
         };
         let mut refused = Self::new(kind, words);
@@ -281,7 +282,7 @@ impl From<mean_information::Error> for Error {
             Refused::Item { index, value, allowed, .. } => {
                 refused.set(value, allowed, Some(Place::Item(index)));
             }
-            Refused::Cell { row, column, value, allowed } => {
+            Refused::Cell { row, column, value, allowed, .. } => {
                 refused.set(value, allowed, Some(Place::Cell { map: None, row, column }));
             }
             _ => {}

@@ -81,7 +81,8 @@ fn computed<T: Real>(operation: &Operation, run: &Run) -> Reply {
         Ok(operations::Answer::Count(count)) => Reply::Result(count.into()),
         Err(Refusal::Domain(_)) => Reply::error(errors::DOMAIN),
         Err(Refusal::TooLarge(error)) => Reply::Skipped(error.to_string()),
-        Err(Refusal::Arguments) => Reply::error(errors::ARGUMENTS),
+        Ok(_) => Reply::Skipped("the protocol has no answer of this kind".to_owned()),
+        Err(_) => Reply::error(errors::ARGUMENTS),
     }
 }
 

@@ -20,6 +20,7 @@ use crate::real::Real;
 /// assert_eq!(Rule::K21.degree(), 31);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Rule {
     /// 7 nodes of Gauss, 15 in all.
     K15,
@@ -68,7 +69,7 @@ pub(super) struct RuleValue<T> {
 
 impl Rule {
     /// Every rule, from the fewest nodes to the most.
-    pub const ALL: [Self; 6] = [Self::K15, Self::K21, Self::K31, Self::K41, Self::K51, Self::K61];
+    pub const ALL: &'static [Self] = &[Self::K15, Self::K21, Self::K31, Self::K41, Self::K51, Self::K61];
 
     /// Returns the number of evaluations of one application, `2n + 1`.
     pub const fn evaluations(self) -> u64 {

@@ -68,7 +68,7 @@ fn slack(k: u32) -> BigInt {
 fn the_rules_are_exact_to_their_degree_and_no_further() {
     let tables = tables();
     assert_eq!(tables.len(), Rule::ALL.len());
-    for ([nodes, kronrod, gauss], rule) in tables.iter().zip(Rule::ALL) {
+    for ([nodes, kronrod, gauss], &rule) in tables.iter().zip(Rule::ALL) {
         let n = nodes.len() as u32 - 1;
         assert_eq!(u64::from(2 * n + 1), rule.evaluations());
         let degree = rule.degree() as u32;
@@ -119,7 +119,7 @@ fn the_bands_are_coefficients_of_the_legendre_series() {
     // Some 3 k roundings in the recurrence, of numbers up to sqrt(2k + 1), weigh sqrt(2k + 1) and length 6 in up to
     // eight terms.
     let rounding = |k: u32| 6.0 * 8.0 * f64::from(3 * k * (2 * k + 1)) * f64::EPSILON;
-    for rule in Rule::ALL {
+    for &rule in Rule::ALL {
         let n = (rule.evaluations() as u32 - 1) / 2;
         let high = (3 * n).div_ceil(2);
         for k in 1..=high {
@@ -152,7 +152,7 @@ fn the_bands_are_coefficients_of_the_legendre_series() {
 /// The top band is orthonormal under Kronrod's sum, and orthogonal to all lower degrees: that determines it.
 #[test]
 fn the_top_band_is_of_the_highest_degrees() {
-    for (rule, arrays) in Rule::ALL.into_iter().zip(arrays().chunks(3)) {
+    for (rule, arrays) in Rule::ALL.iter().copied().zip(arrays().chunks(3)) {
         let floats = |k: usize| -> Vec<f64> {
             arrays[k].1.iter().map(|decimal| decimal.parse().expect("a decimal")).collect()
         };
@@ -192,7 +192,7 @@ fn what_lies_between_nodes_is_seen() {
         (|x, c| (x - c).max(0.0) * (x - c), |c| (1.0 - c) * (1.0 - c) * (1.0 - c) / 3.0, 0.7),
     ];
     let unit = Stretch { lower: -1.0, upper: 1.0 };
-    for rule in Rule::ALL {
+    for &rule in Rule::ALL {
         let [_, outermost] = unit.pair(rule.nodes()[1]);
         for (shape, integral, most) in shapes {
             for k in -200..=200 {
@@ -211,7 +211,7 @@ fn what_lies_between_nodes_is_seen() {
 /// A polynomial that all values determine is carried on to both ends: orthonormal ones are `±√(2k + 1)` there.
 #[test]
 fn the_polynomial_goes_on_to_the_ends() {
-    for rule in Rule::ALL {
+    for &rule in Rule::ALL {
         for k in 0..rule.evaluations() as u32 {
             let reading = rule.apply(&mut |x| legendre(k, x / 3.0), STRETCH);
             let end = f64::from(2 * k + 1).sqrt();
@@ -231,7 +231,7 @@ fn the_polynomial_goes_on_to_the_ends() {
 /// The rules of Gauss and Kronrod disagree on `P_{2n}`, and the top band sees it, too.
 #[test]
 fn the_difference_of_the_two_rules_counts() {
-    for rule in Rule::ALL {
+    for &rule in Rule::ALL {
         let n = (rule.evaluations() as u32 - 1) / 2;
         let reading = rule.apply(&mut |x| legendre(2 * n, x / 3.0), STRETCH);
         assert!(reading.difference > 1.0, "{rule:?}: {reading:?}");
@@ -241,7 +241,7 @@ fn the_difference_of_the_two_rules_counts() {
 /// A constant is a sum of `2n + 1` products that lose the sign of nothing: within the noise.
 #[test]
 fn the_noise_covers_rounding_and_vanishes_with_the_integrand() {
-    for rule in Rule::ALL {
+    for &rule in Rule::ALL {
         let reading = rule.apply(&mut |_| 0.1_f64, Stretch { lower: 1e5, upper: 1e5 + 0.7 });
         let width = (1e5 + 0.7) - 1e5;
         assert!((reading.value - 0.1 * width).abs() <= reading.noise);
@@ -272,7 +272,7 @@ fn nodes_stay_within_their_stretch() {
         (-1e-320, 1e300),
     ];
     for (lower, upper) in stretches {
-        for rule in Rule::ALL {
+        for &rule in Rule::ALL {
             let (mut seen, mut last) = (0, lower);
             let mut f = |x: f64| {
                 assert!(lower <= x && x <= upper && last <= x, "{x} in {lower} to {upper}");

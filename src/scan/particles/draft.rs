@@ -1,5 +1,6 @@
 //! What the scans of a step say, before it is known that all of them can be inserted.
 
+use super::index::no_number;
 use super::patterns::Patterns;
 use super::values::Values;
 use crate::error::Error;
@@ -38,7 +39,6 @@ impl Draft {
 /// The cells that scans of a step touch, with what each particle will say of them.
 pub(super) struct Drafts {
     particles: usize,
-    limit: u64,
     /// The place of each cell in the list of those that are touched, [`NONE`] of the others.
     places: Raster<u32>,
     /// The cells, and the number of the pattern that each has.
@@ -56,17 +56,17 @@ impl Drafts {
     /// Creates the drafts of a step, whose scans all lie in `area`.
     ///
     /// # Errors
-    /// [`Error::TooManyCells`] if that has more cells than the limit, or than numbers.
+    /// [`Error::TooManyCells`] if that has more cells than the limit, or than numbers; [`Error::NoMemory`].
     pub(super) fn new(particles: usize, area: Area, limit: u64) -> Result<Self, Error> {
         let places = Raster::new(area, NONE, limit.min(NONE.into()))?;
-        Ok(Self { particles, limit, places, cells: Vec::new(), values: Vec::new(), changes: Vec::new() })
+        Ok(Self { particles, places, cells: Vec::new(), values: Vec::new(), changes: Vec::new() })
     }
 
     /// Adds what the scan of a particle says to what it said so far; returns each value of which it will have more or fewer
     /// cells, and how many.
     ///
     /// # Errors
-    /// [`Error::TooManyCells`] if there are more values than numbers.
+    /// [`Error::OutOfRange`] if there are more values than numbers.
     pub(super) fn apply<T: Real>(
         &mut self,
         particle: usize,
@@ -89,8 +89,7 @@ impl Drafts {
             let value = &mut self.values[*place as usize * self.particles + particle];
             if (*value, log_odds) != (last.0, last.1) {
                 let sum = values.get(*value).sum + log_odds;
-                let limit = self.limit;
-                let new = values.number(sum).ok_or_else(|| Error::too_many_cells(u32::MAX.into(), limit))?;
+                let new = values.number(sum).ok_or_else(no_number)?;
                 last = (*value, log_odds, new);
                 self.changes.resize(values.len(), 0);
             }
@@ -117,12 +116,11 @@ impl Drafts {
     /// Returns the numbers of their patterns from now on, which are added where they are new.
     ///
     /// # Errors
-    /// [`Error::TooManyCells`] if there are more patterns than numbers.
+    /// [`Error::OutOfRange`] if there are more patterns than numbers.
     pub(super) fn numbers(&self, patterns: &mut Patterns) -> Result<Vec<u32>, Error> {
         let mut numbers = vec![0; self.cells.len()];
         for (number, values) in numbers.iter_mut().zip(self.values.chunks(self.particles)) {
-            let refused = || Error::too_many_cells(u32::MAX.into(), self.limit);
-            *number = patterns.number(values).ok_or_else(refused)?;
+            *number = patterns.number(values).ok_or_else(no_number)?;
         }
         Ok(numbers)
     }

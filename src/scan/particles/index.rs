@@ -1,9 +1,16 @@
 //! An index of contents by their hashes: open addressing, with the contents elsewhere.
 
+use crate::error::Error;
 use alloc::{vec, vec::Vec};
 
 /// The slot of no number.
 const EMPTY: (u64, u32) = (0, u32::MAX);
+
+/// Creates the error of contents for which no number is left.
+pub(super) fn no_number() -> Error {
+    let what = "number of values, or of patterns, of the particles' maps";
+    Error::out_of_range(what, f64::from(u32::MAX) + 1.0, "at most 2^32 - 1")
+}
 
 /// The numbers of contents that are kept elsewhere, found by the hashes of these.
 #[derive(Clone, Debug)]

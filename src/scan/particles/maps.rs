@@ -1,6 +1,7 @@
 //! The maps of a filter's particles: for each cell the pattern of what they say.
 
 use super::draft::{Draft, Drafts};
+use super::index::no_number;
 use super::patterns::Patterns;
 use super::values::{Value, Values};
 use crate::cell::Cell;
@@ -102,7 +103,7 @@ impl<T: Real> ParticleMaps<T> {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if there is not one scan for each particle; those of [`ScanMap::insert`]; [`Error::TooManyCells`]
-    /// if the cells that any particle has seen would exceed the limit. Then no map has changed.
+    /// if the cells that any particle has seen would exceed the limit; [`Error::NoMemory`]. Then no map has changed.
     pub fn insert<M, F>(&mut self, scans: &[Scan<T>], model: F) -> Result<(), Error>
     where
         M: InverseSensorModel<Float = T>,
@@ -205,7 +206,6 @@ impl<T: Real> ParticleMaps<T> {
 
     /// Continues particles that there are; patterns and values of no cell are dropped.
     fn continue_as(&mut self, continued: &[usize]) -> Result<(), Error> {
-        let refused = || Error::too_many_cells(u32::MAX.into(), u32::MAX.into());
         let (mut patterns, mut values) = (Patterns::new(continued.len()), Values::new());
         let mut new_values = vec![None; self.values.len()];
         let mut new_numbers = vec![0; self.patterns.len()];
@@ -221,9 +221,9 @@ impl<T: Real> ParticleMaps<T> {
                 let known = new_values[value as usize];
                 let same = known.or_else(|| values.number(self.values.get(value).sum));
                 new_values[value as usize] = same;
-                list.push(same.ok_or_else(refused)?);
+                list.push(same.ok_or_else(no_number)?);
             }
-            *new = patterns.number(&list).ok_or_else(refused)?;
+            *new = patterns.number(&list).ok_or_else(no_number)?;
             patterns.add(*new, cells);
         }
         if let Some((used, raster)) = &mut self.cells {

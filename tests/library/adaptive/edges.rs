@@ -41,18 +41,20 @@ proptest! {
 #[test]
 fn nothing_costs_nothing() {
     let settings = GaussKronrod::<f64>::new();
-    let nothing = Estimate { value: 0.0, error: 0.0, status: Status::Converged, evaluations: 0 };
-    assert_eq!(settings.integrate(|_| f64::NAN, 3.5, 3.5).unwrap(), nothing);
-    assert_eq!(settings.integrate_between(|_| f64::NAN, &[3.5, 3.5, 3.5]).unwrap(), nothing);
+    let told =
+        |estimate: Estimate<f64>| (estimate.value, estimate.error, estimate.status, estimate.evaluations);
+    let nothing = (0.0, 0.0, Status::Converged, 0);
+    assert_eq!(told(settings.integrate(|_| f64::NAN, 3.5, 3.5).unwrap()), nothing);
+    assert_eq!(told(settings.integrate_between(|_| f64::NAN, &[3.5, 3.5, 3.5]).unwrap()), nothing);
     let zero = settings.integrate(|_| 0.0, -2.0, 3.0).unwrap();
     // A rule, and a value next to either end.
-    assert_eq!(zero, Estimate { evaluations: 21 + 2, status: Status::AllZero, ..nothing });
+    assert_eq!(told(zero), (0.0, 0.0, Status::AllZero, 21 + 2));
 }
 
 /// `∫ x^2 dx`, where the two ends have hardly anything in between.
 #[test]
 fn intervals_that_vanish() {
-    for rule in Rule::ALL {
+    for &rule in Rule::ALL {
         let settings = GaussKronrod::<f64>::new().rule(rule);
         for (a, b) in [
             (3.0, 3.0_f64.next_up()),
@@ -176,7 +178,7 @@ fn settings_that_mean_nothing_are_refused_with_what_is_allowed() {
         refused(settings.relative(0.0)),
         "tolerance is 0, allowed is a positive absolute or relative one"
     );
-    for (rule, limit) in Rule::ALL.into_iter().map(|rule| (rule, rule.evaluations())) {
+    for (rule, limit) in Rule::ALL.iter().copied().map(|rule| (rule, rule.evaluations())) {
         let allowed = format!("allowed is {limit} or more for each panel between break points");
         for limit in [0, limit - 1] {
             assert_eq!(

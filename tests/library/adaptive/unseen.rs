@@ -117,7 +117,7 @@ fn false_claims(family: &Family, rule: Rule, relative: f64, places: u32) -> (Vec
 
 fn none_is_false(families: &[Family], relatives: &[f64], places: u32) {
     for family in families {
-        for rule in Rule::ALL {
+        for &rule in Rule::ALL {
             for &relative in relatives {
                 let (wrong, evaluations) = false_claims(family, rule, relative, places);
                 let mean = evaluations / u64::from(places);
@@ -174,7 +174,7 @@ fn places_that_were_wrong() {
         (3, 0.998_272_179_512_241_6, 1e-12),
         (3, 0.5, 1e-12),
     ] {
-        for rule in Rule::ALL {
+        for &rule in Rule::ALL {
             let family = &FAMILIES[family];
             let (estimate, is_false) = judged(family, rule, relative, place);
             assert!(!is_false, "{}, {rule:?}, {place}: {estimate:?}", family.name);
@@ -198,7 +198,7 @@ fn a_jump_at_an_end_costs_a_value_on_either_side() {
 #[test]
 fn nothing_but_zeros_is_said() {
     let settings = GaussKronrod::<f64>::new();
-    for rule in Rule::ALL {
+    for &rule in Rule::ALL {
         let peak = settings.rule(rule).integrate(|x: f64| exp(-1e6 * x * x), -1000.0, 1700.0).unwrap();
         assert_eq!((peak.value, peak.status), (0.0, Status::AllZero), "{rule:?}");
         let one = settings.rule(rule).integrate(|_| 0.75, -1000.0, 1700.0).unwrap();
@@ -243,7 +243,7 @@ fn smooth_integrands_cost_hardly_more() {
         [115_821, 118_167, 122_043],
         [125_355, 129_869, 132_431],
     ];
-    for (rule, before) in Rule::ALL.into_iter().zip(before) {
+    for (rule, before) in Rule::ALL.iter().copied().zip(before) {
         for (relative, before) in [1e-8, 1e-10, 1e-12].into_iter().zip(before) {
             let settings = GaussKronrod::new().rule(rule).relative(relative);
             let evaluations = |case: &Case| {

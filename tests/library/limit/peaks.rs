@@ -95,7 +95,7 @@ fn a_narrow_peak_in_metres_is_seen() {
     ] {
         let model = InMetres { range, sigma, end };
         let enclosure = rigorous(&model, Weight::Radial, &Rigorous::default()).unwrap();
-        for rule in Rule::ALL {
+        for &rule in Rule::ALL {
             let estimate = adaptive(&model, Weight::Radial, &GaussKronrod::new().rule(rule)).unwrap();
             let error =
                 (estimate.value - enclosure.lower).abs().max((estimate.value - enclosure.upper).abs());

@@ -35,13 +35,13 @@ fn what_cannot_be_built_is_refused_with_its_reason() {
     let room = CartesianRoom::new(sensor, 1e-9, [0.25; 2]).unwrap();
     assert_eq!(
         room.tally().unwrap_err().to_string(),
-        "the Cartesian grid of a room has 1.999e19 cells, allowed are 17179869184"
+        "the Cartesian grid of a room has 1.999e19 samples, allowed are 17179869184"
     );
     let room = PolarRoom::new(sensor, 1e-300).unwrap();
     let refused = room.tally().unwrap_err().to_string();
-    assert_eq!(refused, "the polar map of a room has 2.235e300 cells, allowed are 17179869184");
+    assert_eq!(refused, "the polar map of a room has 2.235e300 samples, allowed are 17179869184");
     let room = CartesianRoom::new(sensor, 0.5, [0.25; 2]).unwrap().with_limit(80);
-    assert!(matches!(room.tally(), Err(Error::TooManyCells { count: 81.0, limit: 80, .. })));
+    assert!(matches!(room.tally(), Err(Error::TooManySamples { count: 81.0, limit: 80, .. })));
     assert!(matches!(room.clone().with_limit(81).map(80), Err(Error::TooManyCells { .. })));
     assert_eq!(room.with_limit(81).map(81).unwrap().cells().len(), 81);
     for n in [0, 3, 2048] {
@@ -74,20 +74,20 @@ fn limits_count_samples() {
         let samples = cartesian.width().unwrap() * cartesian.height().unwrap() * u64::from(n * n);
         assert!(cartesian.clone().with_limit(samples).width().is_ok(), "{h} {n}");
         let refused = cartesian.with_limit(samples - 1).width();
-        assert!(matches!(refused, Err(Error::TooManyCells { .. })), "{h} {n}");
+        assert!(matches!(refused, Err(Error::TooManySamples { .. })), "{h} {n}");
         let polar = PolarRoom::new(sensor, h / 2.0).unwrap().with_sampling(Sampling::Averaged(n)).unwrap();
         let rings = polar.clone().with_limit(u64::MAX).rings().unwrap();
         let samples = rings * u64::from(n);
         assert_eq!(polar.clone().with_limit(samples).rings(), Ok(rings), "{h} {n}");
         let refused = polar.clone().with_limit(samples - 1).rings();
-        assert!(matches!(refused, Err(Error::TooManyCells { .. })), "{h} {n}");
+        assert!(matches!(refused, Err(Error::TooManySamples { .. })), "{h} {n}");
         let cells = 3 * rings as usize;
         assert!(polar.map(3, cells).is_ok() && polar.map(3, cells - 1).is_err(), "{h} {n}");
     }
     // Beyond the indices that can be counted, whatever the limit.
     for h in [1e-16, 1e-19, 1e-300] {
         let room = CartesianRoom::new(sensor, h, [0.0; 2]).unwrap().with_limit(u64::MAX);
-        let Err(Error::TooManyCells { count, .. }) = room.width() else { panic!("{:?}", room.width()) };
+        let Err(Error::TooManySamples { count, .. }) = room.width() else { panic!("{:?}", room.width()) };
         let across = 2.0 * sensor.reach() / h;
         assert!(
             count == across * across

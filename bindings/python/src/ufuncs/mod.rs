@@ -2,7 +2,7 @@
 
 mod loops;
 
-use mean_information::{Real, cell, elementwise};
+use mean_information::{Real, elementwise};
 use pyo3::prelude::*;
 use std::ffi::CStr;
 
@@ -46,13 +46,6 @@ macro_rules! elementwise {
     };
 }
 
-/// Computes the log-odds of occupancies one by one.
-fn log_odds_from_occupancy<T: Real>(occupancies: &[T], results: &mut [T]) {
-    for (result, &p) in results.iter_mut().zip(occupancies) {
-        *result = cell::log_odds_from_occupancy(p);
-    }
-}
-
 elementwise! {
     Entropy c"entropy" "docs/entropy.txt" elementwise::entropy;
     Information c"information" "docs/information.txt" elementwise::information;
@@ -62,5 +55,5 @@ elementwise! {
     OccupancyFromLogOdds c"occupancy_from_log_odds" "docs/occupancy_from_log_odds.txt"
         elementwise::occupancy_from_log_odds;
     LogOddsFromOccupancy c"log_odds_from_occupancy" "docs/log_odds_from_occupancy.txt"
-        log_odds_from_occupancy;
+        elementwise::log_odds_from_occupancy;
 }

@@ -16,6 +16,7 @@ fn arguments(operation: &Operation) -> Vec<String> {
         Shape::Float => "",
         Shape::List => "[]",
         Shape::Rows => "[][]",
+        other => other.name(),
     };
     operation.arguments.iter().map(|argument| format!("{}{}", argument.name, brackets(argument))).collect()
 }

@@ -89,7 +89,7 @@ impl Arguments {
 fn refused(error: mean_information::Error, particles: &Path, weights: &Path) -> Failure {
     use mean_information::Error as Refused;
     let help = match error {
-        Refused::WeightCount { given, items } => {
+        Refused::WeightCount { given, items, .. } => {
             let particles = particles.display();
             let message = format!(
                 "has {given} weights, but {particles} has {items} particles; allowed is one for each"

@@ -55,7 +55,7 @@ impl Leg {
 /// A drift that is negative or not finite.
 pub fn drifted(poses: &[Pose], drift: f64, random: &mut Random) -> Result<Vec<Pose>, Error> {
     if !(drift >= 0.0 && drift.is_finite()) {
-        return Err(Error::OutOfRange { what: "drift", value: drift, allowed: "0 or more, and finite" });
+        return Err(Error::out_of_range("drift", drift, "0 or more, and finite"));
     }
     let mut believed: Vec<Pose> = poses.iter().take(1).copied().collect();
     for ends in poses.windows(2) {

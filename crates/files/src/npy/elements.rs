@@ -145,7 +145,7 @@ fn mismatch(encoding: ArrayEncoding, element: Element) -> Error {
 
 /// Creates the error of a cell whose value the encoding `E` does not have, with the line of Python that may help.
 pub(super) fn no_cell<E: Readable>(row: usize, column: usize, value: f64) -> Error {
-    let refused = mean_information::Error::Cell { row, column, value, allowed: E::ALLOWED };
+    let refused = mean_information::Error::cell(row, column, value, E::ALLOWED);
     Error::from(refused).followed_by(helping(E::ALLOWED == Probability::<f64>::ALLOWED, value))
 }
 

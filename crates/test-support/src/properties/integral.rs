@@ -72,7 +72,7 @@ impl IntegralCase {
 
     /// It ends within the limit, and the claim is a claim: for the polynomials, it holds.
     fn judge<T: Real>(&self, estimate: Result<Estimate<T>, Error>, made_of: &[T], points: &[T]) {
-        let Ok(Estimate { value, error, status, evaluations }) = estimate.inspect_err(|fault| {
+        let Ok(Estimate { value, error, status, evaluations, .. }) = estimate.inspect_err(|fault| {
             assert!(!fault.to_string().is_empty());
         }) else {
             return;

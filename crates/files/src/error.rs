@@ -317,7 +317,7 @@ pub(crate) fn bounded(text: &str) -> Cow<'_, str> {
         return text.into();
     }
     let end = (0..=MOST_WORDS / 2).rev().find(|&at| text.is_char_boundary(at));
-    let start = (text.len() - MOST_WORDS / 2..).find(|&at| text.is_char_boundary(at));
+    let start = (text.len() - MOST_WORDS / 2..=text.len()).find(|&at| text.is_char_boundary(at));
     let [end, start] = [end, start].map(Option::unwrap_or_default);
     format!("{} [...] {}", &text[..end], &text[start..]).into()
 }

@@ -144,7 +144,7 @@ fn what_cannot_be_is_refused() {
         (&["converge", "--range", "2", "--sigma", "0.2", "--resolutions", "1e-300"], "cells"),
         (
             &["converge", "--range", "2", "--sigma", "0.2", "--resolutions", "1e-12", "--grid", "cartesian"],
-            "cells",
+            "samples",
         ),
         (&["converge", "--range", "2", "--sigma", "0.2", "--grid", "round"], "polar, cartesian"),
     ] {

@@ -70,7 +70,7 @@ fn what_cannot_be_read_is_refused_and_nothing_written() {
         says(refused(stack(), weights(&WEIGHTS), &["--resolution", resolution]), &[resolution, "positive"]);
     }
     let huge = npy("<f8", false, &[usize::MAX, usize::MAX, 4], &[]);
-    says(refused(huge, weights(&WEIGHTS), &[]), &["p.npy", "limit"]);
+    says(refused(huge, weights(&WEIGHTS), &[]), &["p.npy", "its header claims"]);
     // An output that is an input.
     let arguments = small(&folder, &WEIGHTS);
     let weights = folder.text_path("w.npy");

@@ -141,7 +141,7 @@ fn what_cannot_be_is_refused() {
         (&["converge", "--range", "2", "--sigma", "nan"], "positive"),
         (&["converge", "--range", "two", "--sigma", "0.2"], "not a number"),
         (&["converge", "--range", "2", "--sigma", "0.2", "--resolutions", "0.1,-1"], "-1"),
-        (&["converge", "--range", "2", "--sigma", "0.2", "--resolutions", "1e-300"], "cells"),
+        (&["converge", "--range", "2", "--sigma", "0.2", "--resolutions", "1e-300"], "samples"),
         (
             &["converge", "--range", "2", "--sigma", "0.2", "--resolutions", "1e-12", "--grid", "cartesian"],
             "samples",

@@ -40,8 +40,9 @@ impl Count for u32 {
 pub(super) struct Counts<C> {
     /// The levels below and above 0, in units of `2^-80` nats; 0 before there is one.
     levels: [i128; 2],
-    /// How often each cell was told free, but for the last scans; and how often by those, in bytes, which add 16 cells at once.
+    /// How often each cell was told free, but for the last scans. The three rasters are of one area.
     free: Raster<C>,
+    /// How often each cell was told free by the last scans: in bytes, of which 16 are added at once.
     lately: Raster<u8>,
     /// How many scans those are, some of which may be taken out again: no byte is more.
     late: u8,
@@ -67,9 +68,11 @@ impl<C: Count> Counts<C> {
     /// # Errors
     /// [`Error::TooManyCells`] if `whole` exceeds the limit; [`Error::NoMemory`]. Then nothing changes.
     pub(super) fn make_room(&mut self, used: Area, whole: Area, limit: u64) -> Result<(), Error> {
-        self.lately.make_room(used, whole, 0, limit)?;
-        for cells in [&mut self.free, &mut self.occupied] {
-            cells.make_room(used, whole, C::new(0), limit)?;
+        let grown = |counts: &Raster<C>| counts.grown(used, whole, C::new(0), limit);
+        let grown = (grown(&self.free)?, self.lately.grown(used, whole, 0, limit)?, grown(&self.occupied)?);
+        // All or none: they stay of one area.
+        if let (Some(free), Some(lately), Some(occupied)) = grown {
+            (self.free, self.lately, self.occupied) = (free, lately, occupied);
         }
         Ok(())
     }
@@ -247,8 +250,48 @@ impl<C: Count> Counts<C> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::codes::NOTHING;
+    use super::super::refusal;
     use super::*;
     use alloc::vec::Vec;
+
+    /// Where one of the three rasters gets no memory, the others do not grow either, and counts that go over to the wide ones stay
+    /// with their cells.
+    #[test]
+    fn no_memory_for_one_raster_changes_none() {
+        let area = Area::of_cell([3, -2]).union(Area::of_cell([4, 1]));
+        let whole = area.union(Area::of_cell([-9, 7]));
+        let of_cell = |cell| {
+            let mut codes = Raster::new(area, NOTHING, 8).unwrap();
+            *codes.cell_mut(cell) = FREE;
+            Readings { area, codes, levels: [-7, 0], occupied: Vec::new(), others: Vec::new() }
+        };
+        let told = [([3, -2], 2), ([4, 0], 300), ([3, 1], 5)];
+        for refused in 0..3 {
+            let mut counts = Counts::<u16>::new(area, 999).unwrap();
+            let tell = |counts: &mut Counts<_>| {
+                for (cell, times) in told {
+                    for _ in 0..times {
+                        assert!(counts.learn(&of_cell(cell)));
+                        counts.add(&of_cell(cell));
+                    }
+                }
+            };
+            tell(&mut counts);
+            refusal::after(refused);
+            let error = counts.make_room(area, whole, 999).unwrap_err();
+            assert!(matches!(error, Error::NoMemory { .. }), "{error}");
+            tell(&mut counts);
+            counts.make_room(area, whole, 999).unwrap();
+            tell(&mut counts);
+            let mut sums: Vec<_> = counts.pairs(whole).map(|(sum, _)| sum).filter(|&sum| sum != 0).collect();
+            for (cell, times) in told {
+                assert_eq!(counts.sum_of(cell), -21 * times);
+            }
+            sums.sort_unstable();
+            assert_eq!(sums, [-21 * 300, -21 * 5, -21 * 2]);
+        }
+    }
 
     /// No count is lost where there are as many scans as the counts can hold, and one more.
     #[test]

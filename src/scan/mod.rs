@@ -38,6 +38,8 @@ mod rays;
 mod readings;
 #[cfg(test)]
 mod reference;
+#[cfg(test)]
+mod refusal;
 mod scan_map;
 mod stretches;
 mod sums;

@@ -106,6 +106,8 @@ impl<C: Copy> Raster<C> {
     /// [`Error::TooManyCells`] if there are more cells than the limit; [`Error::NoMemory`].
     pub(super) fn new(area: Area, fill: C, limit: u64) -> Result<Self, Error> {
         let count = area.within(limit)?;
+        #[cfg(test)]
+        super::refusal::ask(count)?;
         let mut cells = Vec::new();
         cells.try_reserve_exact(count).map_err(|_| Error::no_memory(count as u128))?;
         cells.resize(count, fill);
@@ -117,8 +119,19 @@ impl<C: Copy> Raster<C> {
     /// # Errors
     /// [`Error::TooManyCells`] if `whole` exceeds the limit; [`Error::NoMemory`]. Then nothing changes.
     pub(super) fn make_room(&mut self, used: Area, whole: Area, fill: C, limit: u64) -> Result<(), Error> {
+        if let Some(raster) = self.grown(used, whole, fill, limit)? {
+            *self = raster;
+        }
+        Ok(())
+    }
+
+    /// Copies the area `used` into a raster with room for the area `whole`, which is `fill` elsewhere; `None` if this one has the room.
+    ///
+    /// # Errors
+    /// [`Error::TooManyCells`] if `whole` exceeds the limit; [`Error::NoMemory`].
+    pub(super) fn grown(&self, used: Area, whole: Area, fill: C, limit: u64) -> Result<Option<Self>, Error> {
         if self.area.holds(whole) {
-            return Ok(());
+            return Ok(None);
         }
         // With room to spare, so that growing costs a fixed time per cell in the end; without, where the limit is near.
         let spare = self.area.grown_to(whole);
@@ -127,8 +140,7 @@ impl<C: Copy> Raster<C> {
         for row in used.low[1]..used.high[1] {
             raster.row_mut(used, row).copy_from_slice(self.row(used, row));
         }
-        *self = raster;
-        Ok(())
+        Ok(Some(raster))
     }
 
     /// Returns where the cells of a row that lie in `area` are stored.

@@ -4,7 +4,7 @@ use super::codes::FREE;
 use super::raster::{Area, Raster};
 use super::readings::Readings;
 use crate::error::Error;
-use core::ops::{AddAssign, SubAssign};
+use core::ops::{AddAssign, Range, SubAssign};
 
 /// How often a cell was told one thing.
 pub(super) trait Count: Copy + PartialOrd + AddAssign + SubAssign + From<u8> + Into<u32> {
@@ -194,10 +194,17 @@ impl<C: Count> Counts<C> {
 
     /// Returns how often each cell of an area was told free, and how often occupied, row by row from the lowest.
     fn counts(&self, area: Area) -> impl Iterator<Item = [u32; 2]> {
-        let [free, occupied] = [&self.free, &self.occupied].map(|counts| counts.rows(area).flatten());
-        let free = free.zip(self.lately.rows(area).flatten());
-        free.zip(occupied)
-            .map(|((&free, &lately), &occupied)| [free.into() + u32::from(lately), occupied.into()])
+        area.rows().flat_map(move |row| self.counts_of(area, row, 0..area.size()[0]))
+    }
+
+    /// Returns the same of the columns of a row of an area.
+    #[inline]
+    fn counts_of(&self, area: Area, row: i64, columns: Range<usize>) -> impl Iterator<Item = [u32; 2]> {
+        let [free, occupied] =
+            [&self.free, &self.occupied].map(|counts| &counts.row(area, row)[columns.clone()]);
+        let lately = &self.lately.row(area, row)[columns];
+        let cells = free.iter().zip(lately).zip(occupied);
+        cells.map(|((&free, &lately), &occupied)| [free.into() + u32::from(lately), occupied.into()])
     }
 
     /// Computes the sum of log-odds of counts, and that of their magnitudes: below `2^33 40 2^80`.
@@ -219,20 +226,18 @@ impl<C: Count> Counts<C> {
         &self,
         area: Area,
         row: i64,
-        columns: core::ops::Range<usize>,
+        columns: Range<usize>,
     ) -> impl Iterator<Item = (i128, u64)> {
-        let [free, occupied] =
-            [&self.free, &self.occupied].map(|counts| &counts.row(area, row)[columns.clone()]);
-        let lately = &self.lately.row(area, row)[columns];
-        let counts =
-            move |k: usize| Some([(*free.get(k)?).into() + u32::from(lately[k]), occupied[k].into()]);
-        let mut end = 0;
+        let mut cells = self.counts_of(area, row, columns);
+        let mut next = cells.next();
         core::iter::from_fn(move || {
-            let (start, first) = (end, counts(end)?);
-            while counts(end) == Some(first) {
-                end += 1;
-            }
-            Some((self.pair(first).0, (end - start) as u64))
+            let (first, mut length) = (next?, 1);
+            next = cells.find(|&counts| {
+                let is_same = counts == first;
+                length += u64::from(is_same);
+                !is_same
+            });
+            Some((self.pair(first).0, length))
         })
     }
 

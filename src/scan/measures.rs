@@ -153,7 +153,9 @@ impl<T: Real> ScanMap<T> {
     fn grid<E: Encoding>(&self, stored: impl Fn(i128) -> E::Stored) -> Result<Grid<E>, Error> {
         let ([width, height], geometry) = self.place()?;
         let sums = self.sums.iter().flat_map(Sums::log_odds);
-        let cells = sums.map(stored).collect::<Vec<_>>();
+        let mut cells = Vec::with_capacity(width * height);
+        // Each row in a loop of its own, which `collect` does not make.
+        sums.for_each(|sum| cells.push(stored(sum)));
         Grid::new(width, height, geometry, cells)
     }
 

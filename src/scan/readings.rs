@@ -114,7 +114,7 @@ pub(super) struct Drafts<T> {
     pub(super) canvas: Canvas,
     /// The occupancies of [`FREE`] and [`OCCUPIED`]; NaN, which is equal to none, before there is one.
     levels: [T; 2],
-    /// The places of occupied cells, which are drawn when all free ones are: so many of these.
+    /// The places of occupied cells, which are drawn when all free ones are: so many of these, what follows is spare.
     occupied: Vec<usize>,
     count: usize,
     others: Vec<Other<T>>,
@@ -155,8 +155,10 @@ impl<T: Real> Drafts<T> {
         if p != *level {
             self.others.push(Other { index, p });
         } else if p > T::HALF {
-            self.occupied.truncate(self.count);
-            self.occupied.push(index);
+            match self.occupied.get_mut(self.count) {
+                Some(place) => *place = index,
+                None => self.occupied.push(index),
+            }
             self.count += 1;
         } else {
             self.canvas.codes.set(index, FREE);

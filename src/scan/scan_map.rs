@@ -59,7 +59,7 @@ pub struct ScanMap<T> {
 
 impl<T: Real> ScanMap<T> {
     /// The most cells a map may have unless the caller says otherwise: `8192 x 8192`, which take 1 GiB at 16 bytes
-    /// each, a quarter of it at 4.
+    /// each, 320 MiB at 5.
     pub const MAX_CELLS: u64 = 1 << 26;
 
     /// The log-odds (nats) to which a reading is limited unless the caller says otherwise: those of `p = 0.971`.

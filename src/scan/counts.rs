@@ -187,8 +187,10 @@ impl<C: Count> Counts<C> {
             each(self.occupied.cell_mut(readings.codes.cell_at(index)));
         }
         for reading in &readings.others {
-            let counts = if reading.log_odds < 0 { &mut self.free } else { &mut self.occupied };
-            each(counts.cell_mut(reading.cell));
+            // Of two occupancies both may be at the upper limit; at the lower one they are the same to a scan, and elsewhere their
+            // log-odds differ: no second one of free cells was learned.
+            debug_assert!(reading.log_odds > 0);
+            each(self.occupied.cell_mut(reading.cell));
         }
     }
 

@@ -55,7 +55,7 @@ impl Inserted {
 }
 
 /// 64 bits that tell scans apart: of what a map takes from them, mixed. Two different scans share one with a probability of
-/// `2^-64`.
+/// a few times `2^-64`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Print(u64);
 
@@ -63,7 +63,7 @@ impl Print {
     /// Mixes words into a print, in their order.
     #[inline]
     pub(super) fn of(words: &[u64]) -> Self {
-        // Both halves of a product have bits of all of the word.
+        // Both halves of a product have bits of all of the word. Folded they are no bijection: each step may join two prints, too.
         let mixed = words.iter().fold(0x9e37_79b9_7f4a_7c15_u64, |print, word| {
             let product = u128::from(print ^ word) * 0xff51_afd7_ed55_8ccd;
             product as u64 ^ (product >> 64) as u64

@@ -41,9 +41,9 @@ impl Lattice {
         let m = u128::from(m);
         // Long division by two digits, of 127 and of 52 bits.
         let (high, rest) = ((1 << 127) / m, (1 << 127) % m);
-        // Next to the largest float and to the smallest, where it has fewer bits, there are no units within a metre.
+        // A metre has more units of the smallest resolutions than a float can say.
         let units = UNITS / resolution;
-        let units_per_metre = if units.is_normal() && units < f64::MAX {
+        let units_per_metre = if units.is_finite() {
             [1.0 - 6.0 * f64::EPSILON, 1.0 + 6.0 * f64::EPSILON].map(|part| units * part)
         } else {
             [0.0, f64::INFINITY]
@@ -139,12 +139,13 @@ impl Lattice {
     }
 
     /// Returns a square such that a distance is no less than so many metres if its square in units, computed within a part in `2^51`, is
-    /// no less than that: an infinity where there is none, or NaN.
+    /// no less than that. It is 4 below 0, and an infinity for NaN and where units are too many for a float.
     #[inline]
     pub(super) fn square_beyond(self, metres: f64) -> f64 {
         // Where units are below the smallest normal number, two of them make up for it.
-        let units = metres.max(0.0) * self.units_per_metre[1] + 2.0;
-        units * units
+        let units = metres.clamp(0.0, f64::INFINITY) * self.units_per_metre[1] + 2.0;
+        // Of NaN and an infinity the latter.
+        (units * units).min(f64::INFINITY)
     }
 
     /// Computes the square of the distance of a point from the centre of a cell, in units: exactly, below `2^125`.
@@ -357,16 +358,16 @@ mod tests {
         let units = [f64::NAN, -3.0, 0.0, f64::INFINITY, f64::MAX].map(|metres| lattice.units_within(metres));
         assert_eq!(units, [0, 0, 0, 1 << 62, 1 << 62]);
         let ends = |metres| (lattice.square_within(metres), lattice.square_beyond(metres));
-        assert_eq!([f64::NAN, -3.0, 0.0].map(ends), [(0.0, 4.0); 3]);
+        assert_eq!([-3.0, 0.0].map(ends), [(0.0, 4.0); 2]);
+        assert_eq!(ends(f64::NAN), (0.0, f64::INFINITY));
         assert_eq!(ends(f64::INFINITY), (f64::INFINITY, f64::INFINITY));
         // No units, of which a square would be more than another.
         for resolution in [f64::from_bits(1), 1e-310] {
             let lattice = Lattice::new(resolution);
-            assert_eq!(
-                (lattice.square_within(resolution), lattice.square_beyond(resolution)),
-                (0.0, f64::INFINITY)
-            );
-            assert!(lattice.square_beyond(0.0).is_nan());
+            for metres in [-1.0, 0.0, resolution, f64::NAN] {
+                let ends = (lattice.square_within(metres), lattice.square_beyond(metres));
+                assert_eq!(ends, (0.0, f64::INFINITY));
+            }
         }
         assert!(Lattice::new(f64::MAX).square_beyond(f64::MAX) >= f64::from_parts(1, 2 * FRACTION as i32));
         assert_eq!(Lattice::square_to_centre([1 << 27, 1 << 27], [0, 0]), 0);

@@ -48,7 +48,7 @@ impl<T: Real> Levels<T> {
         } else if self.is_wall(square) {
             Some(self.wall)
         } else {
-            (square >= self.beyond).then_some(T::HALF)
+            self.is_beyond(square).then_some(T::HALF)
         }
     }
 

@@ -20,7 +20,7 @@ pub(super) struct Track {
     across: usize,
     long: Side,
     wide: Side,
-    /// The number of the first columns whose cells are marked; the last column is never one of them.
+    /// The number of the first columns whose cells are marked; the last two columns never are.
     sure: u64,
     /// How far it goes along the shorter axis for each unit along the longer, within `2^-51`.
     pub(super) slope: f64,
@@ -36,7 +36,7 @@ pub(super) struct Track {
 struct Side {
     /// 1 forward, -1 backward.
     sign: i64,
-    /// How far it goes: below `2^62`.
+    /// How far it goes: at most `2^62`.
     length: u64,
     /// How many lines of the grid it crosses, and how far it is to the first one, if there is any.
     lines: u64,
@@ -53,7 +53,7 @@ impl Side {
         Self { sign: 2 * is_forward - 1, length: to.abs_diff(from), lines, to_line: line.abs_diff(from) }
     }
 
-    /// Returns how far its start is from the centre of the cell after so many lines, towards its end: exactly, below `2^62`.
+    /// Returns how far its start is from the centre of the cell after so many lines, towards its end: exactly, below `2^63`.
     #[inline]
     fn to_centre(self, lines: u64) -> i64 {
         (self.to_line + (lines << FRACTION)) as i64 - (1 << (FRACTION - 1))
@@ -158,16 +158,21 @@ impl Track {
     /// Finds what [`rows_at`](Self::rows_at) does in integers below `2^125`.
     #[cold]
     fn rows_exactly_at(&self, line: u64) -> [u64; 2] {
-        let Self { long, wide, .. } = self;
-        let [length, rise] = [long.length, wide.length].map(u128::from);
-        // How far it has come in its row, times the longer side.
-        let behind = u128::from((1 << FRACTION) - wide.to_line);
-        let gone = u128::from(long.to_line) + (u128::from(line - 1) << FRACTION);
-        let (height, row) = (behind * length + gone * rise, length << FRACTION);
+        let (height, row) = (self.height(line), u128::from(self.long.length) << FRACTION);
         let next = (height / row) as u64;
         // Along a line it stays above.
-        let is_corner = height % row == 0 && rise > 0;
+        let is_corner = height % row == 0 && self.wide.length > 0;
         [next - u64::from(is_corner && next > 0), next]
+    }
+
+    /// Computes how far it is above row 0 where it comes to a line from 1 on, times its longer side.
+    #[inline]
+    fn height(&self, line: u64) -> u128 {
+        let Self { long, wide, .. } = self;
+        let [length, rise] = [long.length, wide.length].map(u128::from);
+        let behind = u128::from((1 << FRACTION) - wide.to_line);
+        let gone = u128::from(long.to_line) + (u128::from(line - 1) << FRACTION);
+        behind * length + gone * rise
     }
 
     /// Returns the row in which a column begins.
@@ -287,103 +292,4 @@ impl Track {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::super::traversal::Traversal;
-    use super::*;
-    use proptest::prelude::*;
-    use std::collections::BTreeSet;
-
-    const CELL: i64 = 1 << FRACTION;
-
-    /// Places of which many lie on lines and corners.
-    fn place(cells: i64) -> impl Strategy<Value = i64> {
-        prop_oneof![
-            -cells * CELL..cells * CELL,
-            (-cells..cells).prop_map(|k| k * CELL),
-            (-2 * cells..2 * cells).prop_map(|k| k * CELL / 2),
-            (-cells..cells, -2_i64..3).prop_map(|(k, more)| k * CELL + more),
-        ]
-    }
-
-    /// Columns marked and the rest make up the traversal, and columns are those that are left at less than the length.
-    fn check(from: Point, to: Point, length: u64) -> Result<(), TestCaseError> {
-        let area = Area::of_cell(cell_of(from)).union(Area::of_cell(cell_of(to)));
-        let mut canvas = Canvas::new(area, 1 << 22).unwrap();
-        let track = Track::new(from, to, length);
-        track.draw([0; 2], &mut canvas);
-        let rest: Vec<_> =
-            track.rest().flat_map(|column| track.cells(column)).map(|(cell, _)| cell).collect();
-        let raster = canvas.settled();
-        check_few(&track, &raster, from, &rest)?;
-        let all: Vec<_> = Traversal::new(from, to).collect();
-        prop_assert_eq!(&rest[..], &all[all.len() - rest.len()..]);
-        let marked: BTreeSet<_> = all[..all.len() - rest.len()].iter().copied().collect();
-        let count = area.rows().flat_map(|row| raster.row(area, row)).filter(|&&code| code == FREE).count();
-        prop_assert_eq!(count, marked.len());
-        prop_assert!(marked.iter().all(|&cell| *raster.cell(cell) == FREE));
-        // Along the longer axis, of the cells where it goes backwards the lower line.
-        let sides = [0, 1].map(|k| to[k].abs_diff(from[k]));
-        let long = usize::from(sides[0] < sides[1]);
-        let last = cell_of(to)[long];
-        for cell in all {
-            let line = if to[long] >= from[long] { cell[long] + 1 } else { cell[long] } << FRACTION;
-            let is_sure = line.abs_diff(from[long]) < length && (last - cell[long]).abs() > 1;
-            prop_assert!(!is_sure || marked.contains(&cell), "{:?}", cell);
-            prop_assert!(line.abs_diff(from[long]) < length || !marked.contains(&cell), "{:?}", cell);
-        }
-        Ok(())
-    }
-
-    /// The few cells that are not marked are the same as places and squares, and no more than these.
-    fn check_few(
-        track: &Track,
-        codes: &Raster<u8>,
-        from: Point,
-        rest: &[[i64; 2]],
-    ) -> Result<(), TestCaseError> {
-        let (mut places, mut squares) = ([0; 6], [0.0; 6]);
-        let are_few = track.few(codes, &mut places, &mut squares);
-        prop_assert_eq!(are_few, track.rest().count() <= 3);
-        if are_few {
-            let found: BTreeSet<_> = places.iter().map(|&place| codes.cell_at(place)).collect();
-            prop_assert_eq!(&found, &rest.iter().copied().collect());
-            for (place, square) in places.into_iter().zip(squares) {
-                let offset = |k: usize| ((2 * codes.cell_at(place)[k] + 1) * (CELL / 2) - from[k]) as f64;
-                prop_assert_eq!(square, offset(0) * offset(0) + offset(1) * offset(1));
-            }
-        }
-        Ok(())
-    }
-
-    proptest! {
-        #![proptest_config(ProptestConfig::with_cases(4000))]
-
-        #[test]
-        fn they_are_the_cells_of_the_traversal(
-            from in [place(9), place(9)], to in [place(9), place(9)], length in prop_oneof![Just(0_i64), 0..19 * CELL, (0_i64..19).prop_map(|k| k * CELL)],
-        ) {
-            check(from, to, length as u64)?;
-        }
-    }
-
-    proptest! {
-        #![proptest_config(ProptestConfig::with_cases(60))]
-
-        /// Shorter and longer than what 64 bits hold.
-        #[test]
-        fn so_are_those_of_long_segments(from in [place(9), place(9)], to in [place(700), place(40)], swapped in any::<bool>(), length in 0..800 * CELL) {
-            let turned = |[x, y]: Point| if swapped { [y, x] } else { [x, y] };
-            check(turned(from), turned(to), length as u64)?;
-        }
-    }
-
-    /// A start on a line that the segment leaves at once is in a column that is left at 0.
-    #[test]
-    fn no_length_has_no_columns() {
-        let mut canvas = Canvas::new(Area::of_cell([0, 0]).union(Area::of_cell([1, -9])), 99).unwrap();
-        let track = Track::new([5, 0], [9, -8 * CELL], 0);
-        track.draw([0; 2], &mut canvas);
-        assert_eq!(track.rest().flat_map(|column| track.cells(column)).count(), 9);
-        assert_eq!(*canvas.settled().cell([0, 0]), NOTHING);
-    }
-}
+mod tests;

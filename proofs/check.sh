@@ -3,7 +3,7 @@
 # this source (cargo test --test proofs); of src/limit the tables (Arb, where there is python-flint). Prints one line per proof and, last, "N passed, N failed". See proofs/README.md.
 #
 #     proofs/check.sh            every proof
-#     proofs/check.sh quick      of the vector kernels' intervals every seventeenth, as all take some 20 minutes
+#     proofs/check.sh quick      of the vector kernels' intervals every twenty-ninth, as all take some 20 minutes
 #     proofs/check.sh NAME...    only these, of the names it prints
 #
 # SOURCE_TEST replaces the last command, and ROWS is a file of the vector kernels' rows; proofs/mutate.py uses both to build
@@ -24,7 +24,7 @@ failed=0
 
 chosen=" $* "
 every=
-[ "$chosen" != " quick " ] || every=--every=17
+[ "$chosen" != " quick " ] || every=--every=29
 # wanted NAME: whether to check it.
 wanted() {
     case "$chosen" in

@@ -195,12 +195,12 @@ fn repeated_log_odds_are_counted_as_cells_one_by_one() {
 #[test]
 fn log_odds_that_recur_no_more_are_counted_as_cells_one_by_one() {
     fn check<T: Real>() {
-        let few = (0..60_000).map(|k| T::nearest(f64::from(k % 64) / 8.0 + 0.0625));
-        let many = (0..20_000).map(|k| T::nearest(f64::from(k) / -2048.0));
+        let few = (0..80_000).map(|k| T::nearest(f64::from(k % 64) / 8.0 + 0.0625));
+        let many = (0..15_000).map(|k| T::nearest(f64::from(k) / -2048.0));
         let cells: Vec<T> = few.chain(many.clone()).collect();
         let mut one_by_one: Tally<T> = many.filter_map(LogOdds::cell).collect();
         for &l in &cells[..64] {
-            let count = cells[..60_000].iter().filter(|&&other| other == l).count();
+            let count = cells[..80_000].iter().filter(|&&other| other == l).count();
             one_by_one.add_many(LogOdds::cell(l).unwrap(), count as u64);
         }
         assert_eq!(LogOdds::tally(&cells), one_by_one);

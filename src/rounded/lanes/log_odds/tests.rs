@@ -141,7 +141,7 @@ fn filled<T: Kernels>(cells: &[T]) -> [T; BLOCK] {
 fn where_entropy_is(k: i32) -> f64 {
     let (mut low, mut high) = (1.0, 128.0);
     for _ in 0..60 {
-        let middle = (low + high) / 2.0;
+        let middle = f64::midpoint(low, high);
         let is_above = entropy_from_log_odds(middle) >= f64::from_parts(1, -k);
         *(if is_above { &mut low } else { &mut high }) = middle;
     }

@@ -153,6 +153,13 @@ mod tests {
         assert!(recur(&half));
     }
 
+    #[test]
+    fn nan_takes_no_slot() {
+        let mut counts = Repeated::new(4, 0.0);
+        assert_eq!(counts.add(f64::NAN, 1, 1), None);
+        assert_eq!(counts.into_counts().count(), 0);
+    }
+
     /// Every cell in one call, and others many at a time: of a map of few values first, whose end has many.
     #[test]
     fn each_cell_is_taken_once() {

@@ -154,7 +154,7 @@ pub fn information_from_log_odds<T: Real>(log_odds: &[T], results: &mut [T]) {
 /// Computes the occupancy `p = 1 / (1 + e^-l)` of each cell of log-odds `l` (nats).
 ///
 /// Correctly rounded (proved, [`rounding`](crate::book::rounding)): bit for bit [`cell::occupancy_from_log_odds`] of
-/// each.
+/// each. The first call makes a table of its own (`f64`; `f32` has none), in some two milliseconds (feature `std`).
 ///
 /// Special cases: 1/2 at `l = 0`, 0 and 1 at `l = -inf` and `+inf`, NaN at NaN.
 ///

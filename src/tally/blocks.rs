@@ -14,6 +14,10 @@ pub(super) fn each<T: Real>(
     sums: fn(&[T; BLOCK], &mut Results<T>) -> Block,
     mut take: impl FnMut(&Block, &mut dyn Iterator<Item = T>),
 ) -> &[T] {
+    // Too few cells to set up 4 KB of results for.
+    if cells.len() < FEW {
+        return cells;
+    }
     let mut results = [T::zero(); 2 * BLOCK];
     // A block holds few enough cells that neither of its two integer sums overflows: theorem (blocks), "Sums".
     while let Some((block, rest)) = cells.split_first_chunk() {

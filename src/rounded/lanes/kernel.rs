@@ -144,8 +144,9 @@ impl Block {
     #[inline(always)]
     pub(super) fn add_small<T: Lane>(&mut self, results: &Results<T>) {
         let sums = [&mut self.entropy, &mut self.information];
+        let small = core::mem::take(&mut self.has_small);
         for ((parts, results), _) in
-            sums.into_iter().zip(results.as_chunks().0).zip(self.has_small).filter(|(_, small)| *small)
+            sums.into_iter().zip(results.as_chunks().0).zip(small).filter(|(_, small)| *small)
         {
             sum::add_small(parts, results);
         }

@@ -6,7 +6,8 @@ use super::format::{BLOCK, Lane};
 use crate::real::Real;
 use crate::rounded::beyond_float::Fixed;
 
-/// Holds an exact sum in parts: of large results, of smaller ones, and of those that are smaller still.
+/// Holds an exact sum in parts: of large results, of smaller ones, and of those that are smaller still, which only `f32` has:
+/// results of blocks in `f64` are 0 or above `2^-86`.
 pub(crate) type Parts = [Fixed; 3];
 
 /// Returns how many binades below 1 hold the large results: all their bits are in two words of their format.
@@ -113,7 +114,9 @@ mod tests {
     /// Compares the sum of a block with that of its results one by one.
     fn check<T: Lane>(results: &[T; BLOCK]) {
         let mut one_by_one = ExactSum::new();
-        results.iter().for_each(|&x| one_by_one.add(x));
+        for &x in results {
+            one_by_one.add(x);
+        }
         let (mut parts, some_are_small) = large(results);
         if some_are_small {
             add_small(&mut parts, results);
@@ -123,10 +126,16 @@ mod tests {
         assert_eq!(sum, one_by_one);
     }
 
+    /// The exponents that the chapter names.
+    #[test]
+    fn the_parts_are_those_of_the_chapter() {
+        assert_eq!((binades::<f32>(), binades::<f64>()), (21, 50));
+    }
+
     /// The ends of each part, alone in a block and in all of it.
     #[test]
     fn the_ends_of_the_parts() {
-        let ends = [0, 20, 21, 22, 50, 51, 71, 72, 97].map(|k| f64::from_parts(1, -k));
+        let ends = [0, 20, 21, 22, 50, 51, 71, 72, 97, 99, 100, 101, 149].map(|k| f64::from_parts(1, -k));
         for x in ends.into_iter().flat_map(|x| [x, x.next_down()]).chain([0.0]) {
             check(&[x; BLOCK]);
             check(&core::array::from_fn(|k| if k == 77 { x } else { 0.75 }));

@@ -137,6 +137,17 @@ fn filled<T: Kernels>(cells: &[T]) -> [T; BLOCK] {
     core::array::from_fn(|k| cells[k % cells.len()])
 }
 
+/// Finds the log-odds at which the entropy falls below `2^-k`.
+fn where_entropy_is(k: i32) -> f64 {
+    let (mut low, mut high) = (1.0, 128.0);
+    for _ in 0..60 {
+        let middle = f64::midpoint(low, high);
+        let is_above = entropy_from_log_odds(middle) >= f64::from_parts(1, -k);
+        *(if is_above { &mut low } else { &mut high }) = middle;
+    }
+    low
+}
+
 fn special<T: Kernels>() {
     // NaN is decided, but in no sum.
     assert_eq!(check(&filled(&[T::nan()])), 0);
@@ -147,7 +158,9 @@ fn special<T: Kernels>() {
         let ulp = x * T::epsilon();
         [x, x + ulp, x - ulp / (T::one() + T::one()), -x]
     };
-    for border in [FIRST, NEAR, 4.0, 34.7, 38.5, LAST, 64.0, 72.0, 104.0, 128.0, 745.0, 1024.0] {
+    let borders = [FIRST, NEAR, 4.0, 34.7, LAST, 64.0, 72.0, 104.0, 128.0, 745.0, 1024.0];
+    // Where entropies are in the next part of a sum: `f32` from 2^-21 and 2^-71 on, `f64` from 2^-50.
+    for border in borders.into_iter().chain([21, 50, 71].map(where_entropy_is)) {
         check(&filled(&beside(border)));
     }
     check(&filled(&[

@@ -1,6 +1,6 @@
 //! The packages that crates.io hands out hold what their users need, and no more.
 
-use crate::{ROOT, versioned};
+use crate::{ROOT, read, sources, versioned};
 use std::process::Command;
 
 /// A package, the files and folders that it may hold besides what cargo adds, and some that it must.
@@ -58,5 +58,17 @@ fn packages_hold_what_their_users_need() {
         for file in ALWAYS.iter().chain(needed) {
             assert!(files.iter().any(|packed| packed == file), "{package} lacks {file}");
         }
+    }
+}
+
+/// A package is tested alone, where cargo has left out what is not published: `.ci/release`.
+#[test]
+fn packaged_tests_do_without_what_is_not_published() {
+    let folders = ["src", "crates/files/src", "crates/report/src", "crates/cli/src"];
+    let files: Vec<_> = folders.into_iter().flat_map(sources).collect();
+    assert!(files.len() > 200);
+    for path in files {
+        let uses = read(&path).contains("mean_information_test_support");
+        assert!(!uses, "{} uses a crate that is not published", path.display());
     }
 }

@@ -180,27 +180,31 @@ impl Visitor for Recording<'_> {
 mod tests {
     use super::*;
     use crate::bags::Encoding;
-    use mean_information_test_support::formats::bag::Writer;
+
+    /// The bytes of a header, as ROS 1 has them.
+    fn header(time: u32, frame: &str) -> Vec<u8> {
+        let numbers = [9, time, 0, frame.len() as u32].map(u32::to_le_bytes);
+        [numbers.as_flattened(), frame.as_bytes()].concat()
+    }
+
+    fn singles(numbers: &[f32]) -> Vec<u8> {
+        numbers.iter().flat_map(|x| x.to_le_bytes()).collect()
+    }
 
     /// What is kept of a message is counted: of a scan its ranges and 24 numbers, of a transform 8, of a frame 32 and its names.
     #[test]
     fn what_is_kept_is_counted() {
-        let mut scan = Writer::new(false, true);
-        scan.header([1, 0], "laser");
-        scan.floats(&[0.0, 1.0, 0.25, 0.0, 0.0, 0.0, 8.0]);
-        scan.number(3_u32.to_le_bytes());
-        scan.floats(&[1.0, 2.0, 3.0]);
-        let mut transforms = Writer::new(false, true);
-        transforms.number(2_u32.to_le_bytes());
-        for time in [1, 2] {
-            transforms.header([time, 0], &"b".repeat(80));
-            transforms.name(&"c".repeat(40));
-            transforms.doubles(&[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
-        }
+        let limits = singles(&[0.0, 1.0, 0.25, 0.0, 0.0, 0.0, 8.0]);
+        let scan =
+            [header(1, "laser"), limits, 3_u32.to_le_bytes().into(), singles(&[1.0, 2.0, 3.0])].concat();
+        let turn = [0.0_f64, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0].map(f64::to_le_bytes);
+        let child = [&40_u32.to_le_bytes(), "c".repeat(40).as_bytes(), turn.as_flattened()].concat();
+        let [first, second] = [1, 2].map(|time| [header(time, &"b".repeat(80)), child.clone()].concat());
+        let transforms = [2_u32.to_le_bytes().into(), first, second].concat();
         let (options, selection) = (ScanOptions::default(), Selection::default());
         for (name, kind, bytes, numbers) in [
-            ("/scan", ScanMessage::KIND, &scan.bytes, 24 + 3),
-            ("/tf", TF_KINDS[0], &transforms.bytes, 2 * 8 + 32 + (2 * 40 + 80) / 8),
+            ("/scan", ScanMessage::KIND, &scan, 24 + 3),
+            ("/tf", TF_KINDS[0], &transforms, 2 * 8 + 32 + (2 * 40 + 80) / 8),
         ] {
             let topic = Topic { name: name.to_owned(), kind: kind.to_owned(), encoding: Encoding::Ros1 };
             let message = Message { topic: &topic, number: 1, time_ns: 0, bytes };

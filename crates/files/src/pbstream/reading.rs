@@ -128,22 +128,50 @@ fn records(mut input: impl Read, length: u64, most: u64, each: &mut Each<'_>) ->
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mean_information_test_support::formats::pbstream::{cloud, grid, message, node, state, submap_of};
+    use flate2::Compression;
+    use flate2::write::GzEncoder;
+    use std::io::Write;
+
+    /// A field that is a message, or a list of integers, of these bytes, fewer than 128.
+    fn message(number: u8, parts: &[&[u8]]) -> Vec<u8> {
+        let bytes = parts.concat();
+        [&[number << 3 | 2, bytes.len() as u8], bytes.as_slice()].concat()
+    }
+
+    /// A state of a header of format 2 and this record.
+    fn state(record: &[u8]) -> Vec<u8> {
+        let records: [&[u8]; 2] = [&[1 << 3, 2], record];
+        let packed = records.map(|bytes| {
+            let mut packer = GzEncoder::new(Vec::new(), Compression::fast());
+            packer.write_all(bytes).unwrap();
+            let packed = packer.finish().unwrap();
+            [(packed.len() as u64).to_le_bytes().as_slice(), &packed].concat()
+        });
+        [MAGIC.to_le_bytes().into(), packed.concat()].concat()
+    }
 
     /// What is kept of a state that a small file repeats is counted: of a submap 16 numbers and 2 a value, of a node 32, and of
     /// a point the integer that it is stored as and 3.
     #[test]
     fn what_is_kept_is_counted() {
-        let grid = grid(&[0, 1, 2, 3, 3, 3], b"");
-        let bytes = state(&[[submap_of([2, 5], &grid), submap_of([2, 6], &grid)].concat()]);
+        // Cells of 0.25 m, 3 x 2 of them, of the values 0 to 3.
+        let resolution = [&[0x09], 0.25_f64.to_le_bytes().as_slice()].concat();
+        let limits = message(1, &[&resolution, &message(3, &[&[1 << 3, 3, 2 << 3, 2]])]);
+        let grid = message(4, &[&limits, &message(2, &[&[0, 1, 2, 3, 3, 3]])]);
+        let submap = |index| {
+            message(3, &[&message(1, &[&[1 << 3, 2, 2 << 3, index]]), &message(2, &[&[3 << 3, 1], &grid])])
+        };
+        let bytes = state(&[submap(5), submap(6)].concat());
         let kept = |room| {
             let mut kept = Kept::with_room(room);
             submaps(&*bytes, bytes.len() as u64, &Options::default(), &mut kept).map(|found| found.len())
         };
         assert_eq!(kept(48).unwrap(), 2);
         assert_eq!(kept(47).unwrap_err().kind(), ErrorKind::OutOfMemory);
-        let points = cloud(3, 2, &[2, 0, 0, 0, 7, 9]);
-        let bytes = state(&[node([0, 0], 1, &[&points, &message(9, &[])])]);
+        // A node at time 1 with a cloud of 2 points and an empty one.
+        let points = message(3, &[&[1 << 3, 2], &message(3, &[&[2, 0, 0, 0, 7, 9]])]);
+        let data = message(5, &[&[1 << 3, 1], &points, &message(9, &[])]);
+        let bytes = state(&message(4, &[&message(1, &[&[1 << 3, 0, 2 << 3, 0]]), &data]));
         let kept = |room| {
             let mut nodes = Nodes::default();
             nodes.kept = Kept::with_room(room);

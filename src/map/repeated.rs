@@ -36,18 +36,28 @@ impl<K: Copy + PartialEq> Repeated<K> {
 
     /// Adds `count` to a value's slot, hashed by `bits` (equal for equal values).
     ///
-    /// NaN, which recurs nowhere and is no cell, is not added. If the slot held another value, returns that value and its
-    /// count: the caller must add them to its sums.
+    /// If the slot held another value, returns that value and its count: the caller must add them to its sums. A value that does
+    /// not equal itself recurs nowhere.
     #[inline]
     pub(crate) fn add(&mut self, value: K, bits: u64, count: u64) -> Option<(K, u64)> {
+        self.add_if(value, bits, count, |_| true)
+    }
+
+    /// Adds as [`Repeated::add`] does, but nothing where a value that is not in its slot yet is not `wanted`.
+    #[inline]
+    fn add_if(
+        &mut self,
+        value: K,
+        bits: u64,
+        count: u64,
+        wanted: impl FnOnce(K) -> bool,
+    ) -> Option<(K, u64)> {
         let slot = self.slot(bits);
         if slot.0 == value {
             slot.1 += count;
             return None;
         }
-        #[expect(clippy::eq_op, reason = "values of any kind, of which only NaN is not equal to itself")]
-        let is_nan = value != value;
-        if is_nan {
+        if !wanted(value) {
             return None;
         }
         let lost = core::mem::replace(slot, (value, count));
@@ -96,7 +106,8 @@ pub(super) fn each<T: Real>(mut cells: &[T], mut one: impl FnMut(T, u64), mut ma
         let (stretch, rest) = cells.split_at(STRETCH.min(cells.len()));
         let mut lost = 0;
         for &value in stretch {
-            if let Some((value, count)) = counts.add(value, value.widen().to_bits(), 1) {
+            // NaN is no cell.
+            if let Some((value, count)) = counts.add_if(value, value.widen().to_bits(), 1, |x| !x.is_nan()) {
                 sort(value, count, &mut single);
                 lost += 1;
             }
@@ -155,9 +166,14 @@ mod tests {
 
     #[test]
     fn nan_takes_no_slot() {
-        let mut counts = Repeated::new(4, 0.0);
-        assert_eq!(counts.add(f64::NAN, 1, 1), None);
-        assert_eq!(counts.into_counts().count(), 0);
+        let cells: Vec<f64> = values(64, 40_000).into_iter().flat_map(|x| [x, f64::NAN]).collect();
+        let mut counted = 0;
+        let one = |value: f64, count| {
+            assert!(!value.is_nan());
+            counted += count;
+        };
+        each(&cells, one, |many| assert!(many.iter().all(|value| !value.is_nan())));
+        assert_eq!(counted, 40_000);
     }
 
     /// Every cell in one call, and others many at a time: of a map of few values first, whose end has many.

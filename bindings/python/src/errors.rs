@@ -11,7 +11,9 @@ use std::path::Path;
 pub(crate) fn refused(error: mean_information::Error) -> PyErr {
     use mean_information::Error::{NoMemory, TooManyCells, TooManySamples};
     match error {
-        TooManyCells { .. } | TooManySamples { .. } | NoMemory { .. } => PyMemoryError::new_err(error.to_string()),
+        TooManyCells { .. } | TooManySamples { .. } | NoMemory { .. } => {
+            PyMemoryError::new_err(error.to_string())
+        }
         _ => PyValueError::new_err(error.to_string()),
     }
 }

@@ -262,6 +262,12 @@ mod tests {
     use super::*;
     use alloc::vec::Vec;
 
+    /// The readings of a scan that tells all cells of an area the same, by one level of free cells.
+    fn free(area: Area, level: i128, code: u8) -> Readings {
+        let codes = Raster::new(area, code, 8).unwrap();
+        Readings { area, codes, levels: [level, 0], occupied: Vec::new(), others: Vec::new() }
+    }
+
     /// Where one of the three rasters gets no memory, the others do not grow either, and counts that go over to the wide ones stay
     /// with their cells.
     #[test]
@@ -269,9 +275,9 @@ mod tests {
         let area = Area::of_cell([3, -2]).union(Area::of_cell([4, 1]));
         let whole = area.union(Area::of_cell([-9, 7]));
         let of_cell = |cell| {
-            let mut codes = Raster::new(area, NOTHING, 8).unwrap();
-            *codes.cell_mut(cell) = FREE;
-            Readings { area, codes, levels: [-7, 0], occupied: Vec::new(), others: Vec::new() }
+            let mut readings = free(area, -7, NOTHING);
+            *readings.codes.cell_mut(cell) = FREE;
+            readings
         };
         let told = [([3, -2], 2), ([4, 0], 300), ([3, 1], 5)];
         for refused in 0..3 {
@@ -304,8 +310,7 @@ mod tests {
     #[test]
     fn counts_are_full_before_they_overflow() {
         let area = Area::of_cell([3, -2]);
-        let codes = Raster::new(area, FREE, 1).unwrap();
-        let readings = Readings { area, codes, levels: [-7, 0], occupied: Vec::new(), others: Vec::new() };
+        let readings = free(area, -7, FREE);
         let mut counts = Counts::<u16>::new(area, 1).unwrap();
         while !counts.are_full() {
             assert!(counts.learn(&readings));
@@ -321,22 +326,14 @@ mod tests {
         // More than it was told, and of a level that it was not told.
         let mut empty = Counts::<u16>::new(area, 1).unwrap();
         assert!(!empty.take(&readings) && empty.learn(&readings) && !empty.take(&readings));
-        let codes = Raster::new(area, FREE, 1).unwrap();
-        assert!(!wider.take(&Readings {
-            area,
-            codes,
-            levels: [-8, 0],
-            occupied: Vec::new(),
-            others: Vec::new()
-        }));
+        assert!(!wider.take(&free(area, -8, FREE)));
     }
 
     /// What more scans told than a byte counts is taken out again, of both parts, and no more than that.
     #[test]
     fn both_parts_of_a_count_are_taken_out() {
         let area = Area::of_cell([3, -2]);
-        let codes = Raster::new(area, FREE, 1).unwrap();
-        let readings = Readings { area, codes, levels: [-7, 0], occupied: Vec::new(), others: Vec::new() };
+        let readings = free(area, -7, FREE);
         let mut counts = Counts::<u16>::new(area, 1).unwrap();
         for told in 1..=300 {
             assert!(counts.learn(&readings));

@@ -99,18 +99,23 @@ fn a_faulty_port_is_wrong_where_the_check_finds_it_wrong() {
     }
 }
 
+/// Judges a function of [`FAULTY`], in a file of its own.
+fn judge_function(folder: &Folder, op: &str, name: &str) -> Option<Output> {
+    let file = folder.text_path("functions.py");
+    fs::write(&file, FAULTY).unwrap();
+    judge(&["--ops", op, "--call", &format!("{file}:{name}")])
+}
+
 #[test]
 fn functions_are_judged() {
     let folder = Folder::new();
-    let file = folder.text_path("functions.py");
-    fs::write(&file, FAULTY).unwrap();
-    let call = |op, name: &str| judge(&["--ops", op, "--call", &format!("{file}:{name}")]);
+    let call = |op, name| judge_function(&folder, op, name);
     let Some(output) = call("map.observed", "observed") else { return };
     assert_eq!(last_line(&output.stdout), "149 passed, 0 failed, 149 skipped", "{}", text(&output.stderr));
     let output = call("cell.entropy", "entropy").unwrap();
     assert_eq!(output.status.code(), Some(1));
     assert!(text(&output.stdout).contains("    entropy/f64/"), "{}", text(&output.stdout));
-    let output = judge(&["--ops", "cell.*", "--call", &format!("{file}:entropy")]).unwrap();
+    let output = call("cell.*", "entropy").unwrap();
     assert_eq!(output.status.code(), Some(2));
 }
 
@@ -118,9 +123,7 @@ fn functions_are_judged() {
 #[test]
 fn integers_are_read_as_the_operation_means_them() {
     let folder = Folder::new();
-    let file = folder.text_path("functions.py");
-    fs::write(&file, FAULTY).unwrap();
-    let call = |op, name: &str| judge(&["--ops", op, "--call", &format!("{file}:{name}")]);
+    let call = |op, name| judge_function(&folder, op, name);
     for (op, name, same) in [("cell.entropy", "whole", "entropy"), ("map.observed", "counted", "observed")] {
         let Some(output) = call(op, name) else { return };
         assert_eq!(text(&output.stdout), text(&call(op, same).unwrap().stdout), "{}", text(&output.stderr));

@@ -189,6 +189,22 @@ impl Error {
         Self::Cell { row, column, value, allowed }
     }
 
+    /// Returns whether what was asked for lies in the domain, but is more than this crate or the memory can do:
+    /// [`Error::TooManyCells`], [`Error::TooManySamples`] and [`Error::NoMemory`].
+    ///
+    /// ```
+    /// use mean_information::room::CartesianRoom;
+    /// use mean_information::sensor::GaussianSensor;
+    /// let sensor = GaussianSensor::new(4.0, 0.5)?;
+    /// let fine = CartesianRoom::new(sensor, 1e-9, [0.0, 0.0])?;
+    /// assert!(fine.tally().unwrap_err().is_too_large());
+    /// assert!(!GaussianSensor::new(4.0, -0.5).unwrap_err().is_too_large());
+    /// # Ok::<(), mean_information::Error>(())
+    /// ```
+    pub fn is_too_large(&self) -> bool {
+        matches!(self, Self::TooManyCells { .. } | Self::TooManySamples { .. } | Self::NoMemory { .. })
+    }
+
     /// Creates the [`Error::NoMemory`] of a map of so many cells.
     pub(crate) fn no_memory(cells: u128) -> Self {
         Self::NoMemory { cells: cells as f64 }

@@ -63,12 +63,7 @@ impl core::error::Error for Refusal {}
 
 impl From<Error> for Refusal {
     fn from(error: Error) -> Self {
-        match error {
-            Error::TooManyCells { .. } | Error::TooManySamples { .. } | Error::NoMemory { .. } => {
-                Self::TooLarge(error)
-            }
-            _ => Self::Domain(error),
-        }
+        if error.is_too_large() { Self::TooLarge(error) } else { Self::Domain(error) }
     }
 }
 

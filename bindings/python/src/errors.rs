@@ -9,13 +9,8 @@ use std::path::Path;
 
 /// Converts what the library refuses: `ValueError`.
 pub(crate) fn refused(error: mean_information::Error) -> PyErr {
-    use mean_information::Error::{NoMemory, TooManyCells, TooManySamples};
-    match error {
-        TooManyCells { .. } | TooManySamples { .. } | NoMemory { .. } => {
-            PyMemoryError::new_err(error.to_string())
-        }
-        _ => PyValueError::new_err(error.to_string()),
-    }
+    let words = error.to_string();
+    if error.is_too_large() { PyMemoryError::new_err(words) } else { PyValueError::new_err(words) }
 }
 
 /// The numbers of the system's errors that a reader finds out by itself: `ENOENT` and `EISDIR`.

@@ -42,14 +42,17 @@ fn threads_change_neither_order_nor_bytes() {
             folder.npy_map(&format!("{k}.npy"), 1, &cells)
         })
         .collect();
-    let mut arguments = vec!["map", "--format", "csv"];
+    // So large that threads share its cells.
+    let cells: Vec<f64> = (0..90_011).map(|c| f64::from(c * 7 % 90_012) / 90_011.0).collect();
+    let large = folder.npy_map("large.npy", 1, &cells);
+    let mut arguments = vec!["map", "--format", "csv", &large];
     arguments.extend(maps.iter().map(String::as_str));
     let of = |threads: &str| {
         let output = meaninfo().env("RAYON_NUM_THREADS", threads).args(&arguments).output().unwrap();
         text(&output.stdout).to_owned()
     };
     let one = of("1");
-    assert_eq!(one.lines().count(), 41);
+    assert_eq!(one.lines().count(), 42);
     for threads in ["2", "7"] {
         assert_eq!(of(threads), one);
     }

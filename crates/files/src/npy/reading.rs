@@ -77,6 +77,17 @@ pub fn read_contents(
     Ok(Map { cells, resolution: options.resolution, warnings, files: Vec::new() })
 }
 
+/// The number of cells that a visitor is given at once, so many that threads may share them.
+const MANY: usize = 1 << 16;
+
+/// Returns the place and the value of the first element that no cell has.
+fn first_error<S, const N: usize>(
+    piece: &[[u8; N]],
+    cell: impl Fn([u8; N]) -> Result<S, f64>,
+) -> Option<(usize, f64)> {
+    piece.iter().enumerate().find_map(|(k, &bytes)| Some((k, cell(bytes).err()?)))
+}
+
 /// The cells of an array that are not kept.
 struct Stream<'a, R, V> {
     values: Values<'a, R>,
@@ -95,14 +106,25 @@ impl<R: Read, V: CellsVisitor> CellReader for Stream<'_, R, V> {
         let Size { width, height } = order.size;
         let (mut watch, mut cells, mut done) = (FloatWatch::new::<E>(), Vec::new(), 0);
         self.values.pieces(width * height, |piece: &[[u8; N]]| {
-            cells.clear();
-            for &bytes in piece {
-                let read = cell(bytes).map_err(|value| order.no_cell::<E>(done + cells.len(), value))?;
-                cells.push(read);
+            if cells.len() >= MANY {
+                cells.clear();
             }
-            done += cells.len();
-            watch.see::<E>(&cells);
-            self.visitor.visit::<E>(&cells);
+            // A loop that leaves early takes longer.
+            let mut all_are_cells = true;
+            cells.extend(piece.iter().map(|&bytes| {
+                cell(bytes).unwrap_or_else(|_| {
+                    all_are_cells = false;
+                    E::unknown()
+                })
+            }));
+            if !all_are_cells && let Some((k, value)) = first_error(piece, &cell) {
+                return Err(order.no_cell::<E>(done + k, value));
+            }
+            done += piece.len();
+            if cells.len() >= MANY || done == width * height {
+                watch.see::<E>(&cells);
+                self.visitor.visit::<E>(&cells);
+            }
             Ok(())
         })?;
         // A map without cells has an encoding, too.

@@ -15,6 +15,8 @@ pub(super) fn of_percentages(counts: &Histogram) -> Vec<Warning> {
 
 /// The greys of 255 that often mean unknown: those around 1/2, and the savers', as brightness and as occupancy.
 const OFTEN_UNKNOWN: [u8; 4] = [127, 128, SAVED_UNKNOWN, 255 - SAVED_UNKNOWN];
+/// How far their fractions of 255 are from 1/2, which two of them share.
+const FROM_HALF: [f64; 2] = [0.5 / 255.0, (SAVED_UNKNOWN as f64 - 127.5) / 255.0];
 /// Fractions of 255 in single and in double precision are nearer than this to each other.
 const SAME: f64 = 1e-7;
 
@@ -64,9 +66,12 @@ impl FloatWatch {
             let value = E::value(cell);
             let distance = (value - self.unknown).abs();
             let [own, coarse] = self.beside;
-            let is_beside = distance <= own || distance <= coarse && f64::from(value as f32) == value;
-            self.beside_unknown += u64::from(is_beside && distance > 0.0);
-            if self.is_probability {
+            if distance <= coarse {
+                let is_beside = distance <= own || f64::from(value as f32) == value;
+                self.beside_unknown += u64::from(is_beside && distance > 0.0);
+            }
+            // Few cells are asked for each grey.
+            if self.is_probability && FROM_HALF.iter().any(|grey| (distance - grey).abs() < 2.0 * SAME) {
                 for (grey, (count, seen)) in OFTEN_UNKNOWN.into_iter().zip(&mut self.greys) {
                     if (value - f64::from(grey) / 255.0).abs() < SAME {
                         *count += 1;

@@ -1,6 +1,6 @@
 //! `.npy` arrays written here: every element, byte order, memory order and encoding.
 
-use crate::support::{measure, read_twice, refusal};
+use crate::support::{measure, read_twice, refusal, refusal_of};
 use mean_information_files::{ArrayEncoding, Cells, Options};
 use mean_information_test_support::formats::{Folder, npy};
 
@@ -112,6 +112,28 @@ fn the_first_bad_cell_is_named() {
 
     let refused = refusal("map.npy", npy("'|i1'", false, "(2, 2)", &[1, 2, 3, 101]), &Options::default());
     assert!(refused.contains("row 1, column 1 is 101, allowed is a percentage"), "{refused}");
+}
+
+/// Many cells are read some at a time: each is visited once, and the first that is none is named, wherever it stands.
+#[test]
+fn arrays_of_several_pieces() {
+    let folder = Folder::new();
+    let (rows, columns) = (307, 500);
+    let mut cells: Vec<f32> = (0..rows * columns).map(|k| (k * 7 % 13) as f32 / 12.0).collect();
+    let written = |cells: &[f32]| {
+        let bytes: Vec<u8> = cells.iter().flat_map(|p| p.to_le_bytes()).collect();
+        folder.write("map.npy", npy("'<f4'", false, &format!("({rows}, {columns})"), &bytes))
+    };
+    let measured = measure(&read_twice(&written(&cells), &Options::default()).unwrap());
+    // Of 13 successive cells one has 6/12.
+    assert_eq!(measured.unknown, cells.iter().filter(|&&p| p == 0.5).count() as u64);
+    assert_eq!(measured.unknown + measured.free + measured.occupied, cells.len() as u64);
+    for (row, column) in [(306, 499), (131, 36), (131, 35), (32, 384), (0, 3)] {
+        cells[row * columns + column] = 1.25;
+        let refused = refusal_of(&written(&cells), &Options::default());
+        let words = format!("cell at row {row}, column {column} is 1.25, ");
+        assert!(refused.contains(&words), "{refused}");
+    }
 }
 
 #[test]

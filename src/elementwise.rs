@@ -49,7 +49,9 @@ fn by_blocks<T: Real>(
     let (places, last_places) = results.as_chunks_mut::<BLOCK>();
     for (block, places) in blocks.iter().zip(places) {
         kernel(block, places);
-        settle(block, places, function);
+        if lanes::some_are_open(places) {
+            settle(block, places, function);
+        }
     }
     if last.len() < FEW {
         return one_by_one(last, last_places, function);

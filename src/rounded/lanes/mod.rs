@@ -104,6 +104,14 @@ pub(crate) fn occupancies_from_log_odds<T: Real>(cells: &[T; BLOCK], results: &m
     }
 }
 
+/// Returns false if all results of a block are decided; true also if one is a NaN with a sign.
+pub(crate) fn some_are_open<T: Real>(results: &[T; BLOCK]) -> bool {
+    match T::floats(results) {
+        Floats::Single(results) => some_singles_are_open(results),
+        Floats::Double(results) => some_doubles_are_open(results),
+    }
+}
+
 /// Returns a block with its small results in the sums.
 #[inline]
 fn with_small<T: Real>(mut block: Block, results: &Results<T>) -> Block {
@@ -128,11 +136,11 @@ macro_rules! by_target {
         ))]
         $visibility fn $name($($argument: $type),*) $(-> $result)? {
             if target_cfg_f!(any(target_feature = "fma", target_arch = "aarch64")) {
-                #[allow(dead_code, reason = "sums have no fused operations")]
+                #[allow(dead_code, reason = "some have no fused operations")]
                 const FUSED: bool = true;
                 $call
             } else {
-                #[allow(dead_code, reason = "sums have no fused operations")]
+                #[allow(dead_code, reason = "some have no fused operations")]
                 const FUSED: bool = false;
                 $call
             }
@@ -148,6 +156,17 @@ by_target!(
 by_target!(
     fn add_small_double(block: &mut Block, results: &Results<f64>) {
         block.add_small(results)
+    }
+);
+
+by_target!(
+    fn some_singles_are_open(results: &[f32; BLOCK]) -> bool {
+        results.iter().fold(0, |bits, result| bits | result.to_bits()) >> (u32::BITS - 1) != 0
+    }
+);
+by_target!(
+    fn some_doubles_are_open(results: &[f64; BLOCK]) -> bool {
+        results.iter().fold(0, |bits, result| bits | result.to_bits()) >> (u64::BITS - 1) != 0
     }
 );
 

@@ -1,25 +1,23 @@
 //! The kernels of log-odds in `f32`, in lanes of `f64`: polynomials, no table.
 //!
-//! Up to `l = 2` the information is `l^2` times a polynomial in `l^2`; from there on the entropy is `e` times two
-//! polynomials in `e = e^-l`. Each value is known to `2^-37.8` of itself, where a result has 24 bits. The bounds are those of
-//! theorem (log-odds) in the chapter [`sums`](crate::book::sums), whose paragraphs the comments name.
+//! `p = 1 / (1 + e^-l)` is one quotient, as `e^-l` is the quotient of two polynomials and a power of two. Up to `l = 2` the
+//! information is `l^2` times a polynomial in `l^2`; from there on the entropy is the smaller probability `q` times the sum of
+//! `l / ln 2` and a polynomial in `q`. Each value is known to `2^-37.2` of itself, where a result has 24 bits. The bounds are those
+//! of theorem (log-odds) in the chapter [`sums`](crate::book::sums), whose paragraphs the comments name.
 
-use super::polynomials::{EXP, INFORMATION, INVERSE, LOG};
+use super::polynomials::{EVEN, INFORMATION, LOG, ODD};
 use super::{NEAR, Quantity};
 use crate::rounded::lanes::format::{BLOCK, Lane};
 use crate::rounded::lanes::kernel::{Block, Results, fused, halves, mark};
 use core::f64::consts::LOG2_E;
 
 /// Bounds the error before rounding, relative to each of entropy, information and occupancy.
-pub(super) const ERROR: f64 = 4e-12; // 2^-37.86
+pub(super) const ERROR: f64 = 6e-12; // 2^-37.28
 /// The magnitude from which on results are those of infinity: entropies are below `2^-150`.
 const FAR: f64 = 128.0;
 
 /// `3/2 2^52`: added to a number below `2^51`, it leaves the nearest integer in the last bits.
 const ROUND: f64 = 6755399441055744.0;
-/// The first 32 bits of ln 2, and the rest.
-const LN_2_HIGH: f64 = f64::from_bits(0x3fe6_2e42_fee0_0000);
-const LN_2_LOW: f64 = 1.9082149292705877e-10;
 
 /// Stores a result of each cell: the nearest float, NaN at NaN, and [`Lane::OPEN`] where the rounding is not decided.
 #[inline(always)]
@@ -28,12 +26,9 @@ pub(in super::super) fn results<Q: Quantity, const FUSED: bool>(
     results: &mut [f32; BLOCK],
 ) {
     for (&l, result) in cells.iter().zip(results) {
-        let magnitude = magnitude(l);
-        let e = exp_minus::<FUSED>(magnitude);
-        let v = if Q::OF_OCCUPANCY { e / (1.0 + e) } else { value::<FUSED>(magnitude, e) };
-        let (lower, upper) = bounds(if Q::is_complement(l.into()) { 1.0 - v } else { v });
-        let decided = if lower == upper { lower } else { f32::OPEN };
-        *result = if l.is_nan() { l } else { decided };
+        let (lower, upper) = bounds(unrounded::<Q, FUSED>(inside(l)));
+        // NaN is not below NaN.
+        *result = if lower < upper { f32::OPEN } else { lower };
     }
 }
 
@@ -47,16 +42,15 @@ pub(in super::super) fn sums<const FUSED: bool, const ENTROPY: bool>(
     let (entropies, informations) = halves(places);
     let places = entropies.iter_mut().zip(&mut *informations).zip(&mut marks);
     for (&l, ((entropy, information), mark)) in cells.iter().zip(places) {
-        let magnitude = magnitude(l);
-        let v = value::<FUSED>(magnitude, exp_minus::<FUSED>(magnitude));
+        let magnitude = inside(l).abs();
+        let v = value::<FUSED>(magnitude, occupancy::<FUSED>(-magnitude));
         let near = magnitude < NEAR;
-        let (value, above) = bounds(v);
-        let (other, other_above) = bounds(1.0 - v);
-        let (i, decided) = if near { (value, value == above) } else { (other, other == other_above) };
-        let mut done = decided & !l.is_nan();
+        let (i, above) = bounds(if near { v } else { 1.0 - v });
+        // NaN is not equal to NaN.
+        let mut done = i == above;
         if ENTROPY {
-            let (h, decided) = if near { (other, other == other_above) } else { (value, value == above) };
-            done &= decided;
+            let (h, above) = bounds(if near { 1.0 - v } else { v });
+            done &= h == above;
             *entropy = if done { h } else { 0.0 };
         }
         *information = if done { i } else { 0.0 };
@@ -68,11 +62,22 @@ pub(in super::super) fn sums<const FUSED: bool, const ENTROPY: bool>(
     Block::new::<f32, ENTROPY>(entropies, informations, marks)
 }
 
-/// Returns the magnitude of log-odds, and [`FAR`] for NaN and whatever is beyond.
+/// Returns the log-odds, and the nearest of `-FAR` and [`FAR`] for whatever is beyond; NaN at NaN.
 #[inline(always)]
-fn magnitude(l: f32) -> f64 {
-    let magnitude = f64::from(l).abs();
-    if magnitude < FAR { magnitude } else { FAR }
+fn inside(l: f32) -> f64 {
+    let l = f64::from(l);
+    let l = if l < -FAR { -FAR } else { l };
+    if l > FAR { FAR } else { l }
+}
+
+/// Computes a result at log-odds `l` up to [`FAR`] in magnitude.
+#[inline(always)]
+fn unrounded<Q: Quantity, const FUSED: bool>(l: f64) -> f64 {
+    if Q::OF_OCCUPANCY {
+        return occupancy::<FUSED>(l);
+    }
+    let v = value::<FUSED>(l.abs(), occupancy::<FUSED>(-l.abs()));
+    if Q::is_complement(l) { 1.0 - v } else { v }
 }
 
 /// Rounds a value from both sides of its error.
@@ -81,27 +86,32 @@ fn bounds(x: f64) -> (f32, f32) {
     ((x * (1.0 - ERROR)) as f32, (x * (1.0 + ERROR)) as f32)
 }
 
-/// Computes `e^-a` for `a` up to [`FAR`].
+/// Computes the occupancy at log-odds `l` up to [`FAR`] in magnitude.
 #[inline(always)]
-pub(super) fn exp_minus<const FUSED: bool>(a: f64) -> f64 {
+pub(super) fn occupancy<const FUSED: bool>(l: f64) -> f64 {
     let fused = fused::<f64, FUSED>;
-    // Exponential: `a = k ln 2 + r`, `|r| <= ln 2 / 2`; the last bits of `shifted` are those of `k`.
-    let shifted = fused(a, LOG2_E, ROUND);
+    // Exponential: `-l / ln 2 = k + r`, `|r| <= 1/2`; the last bits of `shifted` are those of `k`.
+    let shifted = fused(l, -LOG2_E, ROUND);
     let k = shifted - ROUND;
-    // Exponential: `k` has 8 bits, so that the product is exact, and the difference is a float.
-    let r = fused(k, -LN_2_LOW, a - k * LN_2_HIGH);
-    let power = f64::from_bits(1023_u64.wrapping_sub(shifted.to_bits()) << 52);
-    power * horner::<FUSED, _>(&EXP, r)
+    let r = fused(l, -LOG2_E, -k);
+    // Exponential: `2^r` is the quotient of `over` and `under`.
+    let rr = r * r;
+    let even = horner::<FUSED, _>(&EVEN, rr);
+    let odd = horner::<FUSED, _>(&ODD, rr);
+    let under = fused(-r, odd, even);
+    let over = fused(r, odd, even);
+    let scaled = f64::from_bits(over.to_bits().wrapping_add(shifted.to_bits() << 52));
+    under / (under + scaled)
 }
 
-/// Computes `V`: the information up to [`NEAR`], the entropy from there on.
+/// Computes `V` at the magnitude `a`, where the smaller probability is `q`: the information up to [`NEAR`], the entropy from there
+/// on.
 #[inline(always)]
-pub(super) fn value<const FUSED: bool>(a: f64, e: f64) -> f64 {
+pub(super) fn value<const FUSED: bool>(a: f64, q: f64) -> f64 {
     let square = a * a;
     let information = square * horner::<FUSED, _>(&INFORMATION, square);
-    // Entropy: `log2 (1 + e) + l / ln 2 e / (1 + e)`.
-    let inverse = horner::<FUSED, _>(&INVERSE, e);
-    let entropy = e * fused::<f64, FUSED>(a * LOG2_E, inverse, horner::<FUSED, _>(&LOG, e));
+    // Entropy: `q (l / ln 2 - log2(1 - q) / q)`.
+    let entropy = q * fused::<f64, FUSED>(a, LOG2_E, horner::<FUSED, _>(&LOG, q));
     if a < NEAR { information } else { entropy }
 }
 

@@ -246,10 +246,11 @@ fn errors_are_within_the_bound() {
 fn errors_in_single_precision_are_within_the_bound() {
     fn largest<const FUSED: bool>() -> f64 {
         let errors = (1..16_000).map(|k| f64::from(k as f32 * 0.00377)).flat_map(|a| {
-            let e = single::exp_minus::<FUSED>(a);
-            let v = single::value::<FUSED>(a, e);
+            let (q, p) = (single::occupancy::<FUSED>(-a), single::occupancy::<FUSED>(a));
+            let v = single::value::<FUSED>(a, q);
             let exact = if a < NEAR { information_from_log_odds(a) } else { entropy_from_log_odds(a) };
-            [v / exact - 1.0, e / (1.0 + e) / occupancy_from_log_odds(-a) - 1.0, (exact - v) / (1.0 - exact)]
+            let occupancies = [q / occupancy_from_log_odds(-a) - 1.0, p / occupancy_from_log_odds(a) - 1.0];
+            [v / exact - 1.0, (exact - v) / (1.0 - exact), occupancies[0], occupancies[1]]
         });
         errors.map(f64::abs).fold(0.0, f64::max)
     }

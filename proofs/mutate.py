@@ -75,6 +75,9 @@ def of_log_odds(file, quotation, in_steps=(), fused=()):
     return edits
 
 
+FAR = "src/rounded/lanes/log_odds/far.rs"
+
+
 def complements(quotation, definition):
     """The same of a line of `complements`, which the kernels of log-odds in `f64` run, too."""
     scripts = [f"proofs/log_odds_f64{fused}.gappa" for fused in ("", "_fused")]
@@ -298,6 +301,16 @@ MUTATIONS = [
                  ("over = rnd(r * odd + even);", "over = rnd(-r * odd + even);"))),
     ("lanes of log-odds: the entropy over l in place of that over q, in both", "log_odds_f32.gappa",
      of_log_odds(SINGLE, ("let entropy = q * ", "let entropy = a * "), *[("entropy = rnd(q * ", "entropy = rnd(a * ")] * 2)),
+    ("lanes far out: ERROR 9e-21, in both", "far_f64_fused.gappa",
+     both(FAR, "far_f64_fused", ("1.1e-20; // ", "9e-21; // "), ("rnd(1.1e-20)", "rnd(9e-21)"))),
+    ("lanes far out: the rest of the step left out, in both", "far_f64_fused.gappa",
+     both(FAR, "far_f64_fused", ("let reduced = r - r_low;", "let reduced = r;"), ("reduced = rnd(r - r_low);", "reduced = r;"))),
+    ("lanes far out: 1 / 7 for 1 / 6, in both", "far_f64_fused.gappa",
+     both(FAR, "far_f64_fused", ("-1.0 / 6.0", "-1.0 / 7.0"), ("rnd(-1 / 6)", "rnd(-1 / 7)"))),
+    ("lanes far out: the product's rest times 1, in both", "far_f64_fused.gappa",
+     both(FAR, "far_f64_fused", ("let low = fused(product_low, -r, product_low);", "let low = product_low;"),
+          ("low = rnd(product_low * -r + product_low);", "low = product_low;"))),
+    ("lanes/log_odds/far.rs alone: the rest of ln 2 over 128", "source", [(FAR, "LN_2_LOW / 256.0", "LN_2_LOW / 128.0")]),
     ("lanes/log_odds/double.rs alone: a_7 for a_6", "source", [(DOUBLE, "fused(h, a7, a6)", "fused(h, a6, a7)")]),
     ("lanes/log_odds/single.rs alone: a smaller ERROR", "source", [(SINGLE, "f64 = 6e-12", "f64 = 5.9e-12")]),
     ("lanes/log_odds/polynomials.rs alone: a digit", "source",

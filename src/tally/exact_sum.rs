@@ -65,6 +65,22 @@ impl ExactSum {
         self.add_at((e - LOWEST) as usize, u128::from(m) * u128::from(count));
     }
 
+    /// Adds numbers in `[0, 1]`, as [`ExactSum::add`] does one by one.
+    #[cfg(feature = "std")]
+    pub(crate) fn add_all<T: Real>(&mut self, numbers: &[T]) {
+        // 2^12 integers of 53 bits, moved by 63 bits at most, fit in 128: carries wait until the end.
+        for numbers in numbers.chunks(1 << 12) {
+            let mut sums = [0_u128; LIMBS - 2];
+            for x in numbers {
+                let (m, e) = x.parts();
+                let place = (e - LOWEST) as usize;
+                sums[place / 64] += u128::from(m) << (place % 64);
+            }
+            let sums = sums.into_iter().enumerate().filter(|(_, sum)| *sum > 0);
+            sums.for_each(|(limb, sum)| self.add_at(64 * limb, sum));
+        }
+    }
+
     /// Adds `value 2^exponent`, cut below the smallest positive `T`, `count` times.
     ///
     /// The cut loses less than one unit of the smallest number of `T`; all else is exact.
@@ -188,6 +204,7 @@ impl ExactSum {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use alloc::vec::Vec;
 
     /// Ten limbs of ones, and one unit more.
     #[test]
@@ -201,6 +218,24 @@ mod tests {
         let mut power = ExactSum::new();
         power.add(f64::from_parts(1, LOWEST + 640));
         assert_eq!(sum, power);
+    }
+
+    /// Of every size, more than are added without a carry.
+    #[cfg(feature = "std")]
+    #[test]
+    fn all_at_once_are_one_by_one() {
+        let most = |k: u64| f64::from_bits((1023 - k % 1023) << 52).next_down();
+        let ends = [0.0, 1.0, f64::from_bits(1), f64::MIN_POSITIVE, f64::MIN_POSITIVE.next_down()];
+        // At the last bit of a limb, as large as can be.
+        let largest = f64::from_parts((1 << 53) - 1, LOWEST + 64 * 15 - 1);
+        let largest = core::iter::repeat_n(largest, 4_500);
+        let numbers: Vec<f64> = ends.into_iter().chain((0..9_000).map(most)).chain(largest).collect();
+        let (mut all, mut one_by_one) = (ExactSum::new(), ExactSum::new());
+        all.add_all(&numbers);
+        for &x in &numbers {
+            one_by_one.add(x);
+        }
+        assert_eq!(all, one_by_one);
     }
 
     /// `(c + 1) / (2 c)` units, `c = 2^63 + 1`: above the midpoint of 0 and one unit by less than any bit kept.

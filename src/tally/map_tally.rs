@@ -1,9 +1,11 @@
 //! The tally of a map: all that Eqs. 2 to 4 need.
 
-#[cfg(feature = "std")]
-use super::blocks;
 use super::exact_sum::ExactSum;
+#[cfg(feature = "std")]
+use super::{apart, blocks};
 use crate::cell::{Cell, State};
+#[cfg(feature = "std")]
+use crate::elementwise;
 use crate::real::Real;
 use crate::rounded::beyond_float::Both;
 #[cfg(feature = "std")]
@@ -138,13 +140,41 @@ impl<T: Real> Tally<T> {
     pub fn from_log_odds(cells: &[T]) -> Self {
         let mut tally = Self::new();
         #[cfg(feature = "std")]
-        let cells = blocks::each(cells, lanes::sums_from_log_odds, |block, left| {
-            // The integers of a block are its cells' sums, bit for bit: sums.md, theorem (log-odds).
-            tally.add_block(block);
-            tally.extend(left.flat_map(Cell::from_log_odds));
+        apart::each(cells, |near, far| {
+            tally.add_near(near);
+            tally.add_far(far);
         });
+        #[cfg(not(feature = "std"))]
         tally.extend(cells.iter().flat_map(|&l| Cell::from_log_odds(l)));
         tally
+    }
+
+    /// Adds cells of log-odds, of which few are far.
+    #[cfg(feature = "std")]
+    fn add_near(&mut self, cells: &[T]) {
+        let cells = blocks::each(cells, lanes::sums_from_log_odds, |block, left| {
+            // The integers of a block are its cells' sums, bit for bit: sums.md, theorem (log-odds).
+            self.add_block(block);
+            self.extend(left.flat_map(Cell::from_log_odds));
+        });
+        self.extend(cells.iter().flat_map(|&l| Cell::from_log_odds(l)));
+    }
+
+    /// Adds cells of log-odds, all of which are far.
+    #[cfg(feature = "std")]
+    fn add_far(&mut self, cells: &[T]) {
+        let mut entropies = [T::zero(); lanes::BLOCK];
+        for cells in cells.chunks(lanes::BLOCK) {
+            let entropies = &mut entropies[..cells.len()];
+            // Theorem (far log-odds), "Sums": correctly rounded, then added exactly.
+            elementwise::entropy_from_log_odds(cells, entropies);
+            self.entropy.add_all(entropies);
+            let occupied = cells.iter().filter(|&&l| l > T::zero()).count() as u64;
+            self.occupied += occupied;
+            self.free += cells.len() as u64 - occupied;
+        }
+        // The information is 1 to the last bit: sums.md, theorem (log-odds), "Domain in f64".
+        self.information.add_many(T::one(), cells.len() as u64);
     }
 
     /// Adds the sums and counts of a block of cells.

@@ -5,6 +5,8 @@
 //! were split and merged.
 
 #[cfg(feature = "std")]
+mod apart;
+#[cfg(feature = "std")]
 mod blocks;
 mod bytes;
 mod checked;

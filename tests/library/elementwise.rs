@@ -84,6 +84,22 @@ fn every_magnitude() {
     check_both(&both, &both);
 }
 
+/// Blocks of far cells alone, of some, of few and of one, of either sign.
+#[test]
+fn log_odds_far_from_0() {
+    for every in [1, 2, 5, 100, 300] {
+        let cell = |k: u32| {
+            let far = 63.0 + (0.377 * f64::from(k)).fract() * 710.0;
+            let l = if k.is_multiple_of(every) { far } else { far / 64.0 };
+            if k.is_multiple_of(3) { l } else { -l }
+        };
+        check(&of_log_odds(), &(0..1100).map(cell).collect::<Vec<f64>>());
+    }
+    let free: Vec<f64> = (0..256).map(|k| -64.0 - f64::from(k) * 2.5).collect();
+    check(&of_log_odds(), &free);
+    check(&of_log_odds(), &free.iter().map(|l| -l).collect::<Vec<f64>>());
+}
+
 /// Fewer than a block, a block, and more, with what no function is defined at in between.
 #[test]
 fn any_number_of_cells() {

@@ -2,6 +2,7 @@
 
 use super::common::{cell, mirrorable, occupancy, power};
 use mean_information::cell::{Cell, entropy, information};
+use mean_information::map::encoding::{Encoding, LogOdds};
 use mean_information::{ExactSum, InformationSum, Tally};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -41,6 +42,41 @@ proptest! {
         let one_by_one: Tally<f32> = singles.iter().flat_map(|&p| Cell::from_occupancy(p)).collect();
         prop_assert_eq!(&Tally::from_occupancies(&singles), &one_by_one);
         prop_assert_eq!(InformationSum::from_occupancies(&singles), InformationSum::from(&one_by_one));
+    }
+}
+
+/// Far cells alone, every other one, few, one, and in runs; with NaN and infinities among them, in several stretches.
+#[test]
+fn log_odds_far_from_0_are_the_single_cells() {
+    let cell = |k: u32, is_far: bool| {
+        let share = (0.618_033_988_7 * f64::from(k)).fract();
+        let l = if is_far { 60.0 + 720.0 * share } else { 30.0 * share };
+        match k % 101 {
+            0 => f64::NAN,
+            1 => f64::INFINITY,
+            2 => 0.0,
+            _ => {
+                if k % 5 < 2 {
+                    l
+                } else {
+                    -l
+                }
+            }
+        }
+    };
+    let shares: [fn(u32) -> bool; 6] =
+        [|_| true, |k| k % 2 == 0, |k| k % 97 == 0, |k| k == 4100, |k| k / 5000 == 1, |k| k % 40 < 20];
+    for is_far in shares {
+        let cells: Vec<f64> = (0..12_500).map(|k| cell(k, is_far(k))).collect();
+        let one_by_one: Tally<f64> = cells.iter().flat_map(|&l| Cell::from_log_odds(l)).collect();
+        assert_eq!(Tally::from_log_odds(&cells), one_by_one);
+        assert_eq!(LogOdds::tally(&cells), one_by_one);
+        let parts = cells.chunks(1777).map(Tally::from_log_odds);
+        assert_eq!(parts.sum::<Tally<f64>>(), one_by_one);
+        assert_eq!(InformationSum::from_log_odds(&cells), InformationSum::from(&one_by_one));
+        let singles: Vec<f32> = cells.iter().map(|&l| l as f32).collect();
+        let one_by_one: Tally<f32> = singles.iter().flat_map(|&l| Cell::from_log_odds(l)).collect();
+        assert_eq!(Tally::from_log_odds(&singles), one_by_one);
     }
 }
 

@@ -1,6 +1,6 @@
-//! The Gappa scripts of the vector kernels, `proofs/lanes_*.gappa`, `proofs/sum_*.gappa` and `proofs/log_odds_*.gappa`: every
-//! statement of the functions that they speak of is quoted, and every definition under a quotation is its translation into rounded
-//! operations.
+//! The Gappa scripts of the vector kernels, `proofs/lanes_*.gappa`, `proofs/sum_*.gappa`, `proofs/log_odds_*.gappa` and
+//! `proofs/far_*.gappa`: every statement of the functions that they speak of is quoted, and every definition under a quotation is its
+//! translation into rounded operations.
 //!
 //! In a script of a format, fused or not, only one branch of `if FUSED` and of `if T::TERMS > 3` is there.
 
@@ -14,6 +14,7 @@ const KERNEL: &str = "kernel";
 const SUM: &str = "sum";
 const DOUBLE: &str = "log_odds/double";
 const SINGLE: &str = "log_odds/single";
+const FAR: &str = "log_odds/far";
 
 /// The functions that a script quotes, each with its file.
 fn quoted_by(script: &str) -> &'static [(&'static str, &'static str)] {
@@ -21,6 +22,8 @@ fn quoted_by(script: &str) -> &'static [(&'static str, &'static str)] {
         &[(SUM, "high_origin"), (SUM, "low_origin"), (SUM, "add")]
     } else if script.starts_with("log_odds_f64") {
         &[(DOUBLE, "value"), (DOUBLE, "bounds"), (KERNEL, "complements")]
+    } else if script.starts_with("far_") {
+        &[(FAR, "value"), (FAR, "factor"), (FAR, "bounds")]
     } else if script.starts_with("log_odds_f32") {
         &[(SINGLE, "occupancy"), (SINGLE, "value"), (SINGLE, "bounds")]
     } else {
@@ -38,6 +41,7 @@ fn fragments_of(script: &str) -> &'static str {
     match script {
         _ if script.starts_with("log_odds_f64") => DOUBLE,
         _ if script.starts_with("log_odds_f32") => SINGLE,
+        _ if script.starts_with("far_") => FAR,
         _ => "format",
     }
 }
@@ -45,7 +49,8 @@ fn fragments_of(script: &str) -> &'static str {
 /// The statements of a function of the kernels.
 fn statements_of(file: &str, function: &str) -> Vec<String> {
     let code = without_comments(&source_of(file));
-    let names = ["<T: Lane", "<const FUSED: bool>(", "("].map(|after| format!("fn {function}{after}"));
+    let names = ["<T: Lane", "<const FUSED: bool>(", "<Q: Quantity>(", "("]
+        .map(|after| format!("fn {function}{after}"));
     let (before, text) = names.iter().find_map(|name| code.split_once(name)).expect("a function");
     let line = before.rsplit('\n').next().unwrap_or("");
     let indent = &line[..line.len() - line.trim_start().len()];
@@ -55,7 +60,7 @@ fn statements_of(file: &str, function: &str) -> Vec<String> {
 
 /// Whether a script is of the vector kernels.
 pub(crate) fn is_of_lanes(script: &str) -> bool {
-    ["lanes_", "sum_", "log_odds_"].iter().any(|kind| script.starts_with(kind))
+    ["lanes_", "sum_", "log_odds_", "far_"].iter().any(|kind| script.starts_with(kind))
 }
 
 /// The scripts of the vector kernels.
@@ -105,6 +110,7 @@ fn the_scripts_quote_every_statement_of_the_kernels() {
     let sums = ["f32", "f64"].map(|format| format!("sum_{format}.gappa"));
     let mut all: Vec<String> = [series, of_log_odds].concat().concat();
     all.extend(sums);
+    all.push("far_f64_fused.gappa".to_owned());
     all.sort();
     assert_eq!(names, all);
     for (name, script) in &scripts {
@@ -163,6 +169,7 @@ fn the_definitions_translate_the_kernels() {
             ("sum", _) => 4,
             ("lanes", false) => 26,
             ("lanes", true) => 29,
+            ("far", _) => 22,
             (_, false) => 18,
             (_, true) => 17,
         };
@@ -181,7 +188,10 @@ fn the_definitions_translate_the_kernels() {
 /// The format, the constants and the mathematics of each script.
 #[test]
 fn the_scripts_have_the_formats_of_the_kernels() {
-    for (name, script) in scripts_of_lanes().into_iter().filter(|(name, _)| !name.starts_with("log_odds_")) {
+    for (name, script) in scripts_of_lanes()
+        .into_iter()
+        .filter(|(name, _)| ["lanes_", "sum_"].iter().any(|kind| name.starts_with(kind)))
+    {
         let (bits, digits, least) = if name.contains("f64") { (64, 53, 1074) } else { (32, 24, 149) };
         let has = |line: &str| assert!(script.lines().any(|l| l == line), "{name}: {line}");
         has(&format!("@rnd = float<ieee_{bits}, ne>;"));

@@ -1,4 +1,4 @@
-//! What the scripts `proofs/log_odds_*.gappa` take from elsewhere: constants, polynomials with their bounds, and what is certified of
+//! What the scripts `proofs/log_odds_*.gappa` and `proofs/far_*.gappa` take from elsewhere: constants, polynomials with their bounds, and what is certified of
 //! the rows of the tables.
 
 use crate::definition;
@@ -64,6 +64,29 @@ fn the_constants_are_those_of_the_kernels() {
         has("complement_lower = rnd(complement * less);");
         has("complement_upper = rnd(complement * more);");
     }
+}
+
+#[test]
+fn the_constants_are_those_of_the_far_kernel() {
+    let script = fs::read_to_string("proofs/far_f64_fused.gappa").expect("the script is there");
+    let has = |line: &str| assert!(script.lines().any(|l| l == line), "{line}");
+    let of_far = |name: &str| constant("log_odds/far", name);
+    has("@rnd = float<ieee_64, ne>;");
+    has(&format!("ERROR = rnd({});", of_far("ERROR")));
+    has(&format!("LN_2_LOW = rnd({});", of_far("LN_2_LOW")));
+    has(&format!("ROUND = {};", of_far("ROUND").strip_suffix(".0").expect("an integer")));
+    // The script quotes that they are 256 times the one, and the other over 256.
+    has("STEPS = 0x1.71547652b82fep8;");
+    has("STEP = 0x1.62e42fefa39efp-9;");
+    assert_eq!(core::f64::consts::LOG2_E.to_bits(), 0x3ff7_1547_652b_82fe);
+    assert_eq!(core::f64::consts::LN_2.to_bits(), 0x3fe6_2e42_fefa_39ef);
+    let integers = fs::read_to_string("src/rounded/constants.rs").expect("the constants are there");
+    let integer = |name: &str| {
+        let (_, value) = integers.split_once(&format!("const {name}: u128 = ")).expect("the constant");
+        value.split_once(';').expect("an end").0
+    };
+    has(&format!("LN2 = {};", integer("LN2")));
+    assert!(script.contains(&format!("unit in [1b127, {}] /\\ ", integer("INV_LN2"))));
 }
 
 /// Whether a line defines `NAME_k`.

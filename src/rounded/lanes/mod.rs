@@ -79,6 +79,12 @@ pub(crate) fn information_from_log_odds<T: Real>(cells: &[T; BLOCK], results: &m
     with_small(block, results)
 }
 
+/// Returns whether log-odds have an entropy in a kernel of their own: beyond the tables, which `f32` has not.
+#[inline]
+pub(crate) fn is_far<T: Real>(l: T) -> bool {
+    T::PRECISION == f64::PRECISION && log_odds::far::is_far(l.widen().abs())
+}
+
 /// Stores the entropy at each of a block's log-odds: the nearest float, NaN at NaN, a negative number where it is not
 /// decided.
 pub(crate) fn entropies_from_log_odds<T: Real>(cells: &[T; BLOCK], results: &mut [T; BLOCK]) {
@@ -246,6 +252,7 @@ mod single_log_odds {
 /// The kernels of log-odds in `f64`.
 mod double_log_odds {
     use super::log_odds::double::{results, sums as block};
+    use super::log_odds::far::{self, OF_ENTROPY, OF_OCCUPANCY, Powers, is_far};
     use super::log_odds::table::{Table, of_information, of_occupancy};
     use super::log_odds::{Entropy, Information, Occupancy};
     use super::{BLOCK, Block, LazyLock, Results, multiversion, target_cfg_f};
@@ -254,6 +261,9 @@ mod double_log_odds {
     static TABLE: LazyLock<Table> = LazyLock::new(|| Table::new(of_information));
     /// Holds the table of the smaller probability, made when first needed.
     static OCCUPANCY: LazyLock<Table> = LazyLock::new(|| Table::new(of_occupancy));
+
+    /// The number of far cells of a block that are faster one by one.
+    const FEW: u64 = 4;
 
     by_target!(
         fn both(table: &Table, cells: &[f64; BLOCK], results: &mut Results<f64>) -> Block {
@@ -266,18 +276,28 @@ mod double_log_odds {
         }
     );
     by_target!(
-        fn entropy(table: &Table, cells: &[f64; BLOCK], places: &mut [f64; BLOCK]) {
+        fn entropy(table: &Table, cells: &[f64; BLOCK], places: &mut [f64; BLOCK]) -> u64 {
             results::<Entropy, FUSED>(table, cells, places)
         }
     );
     by_target!(
-        fn only_information(table: &Table, cells: &[f64; BLOCK], places: &mut [f64; BLOCK]) {
+        fn only_information(table: &Table, cells: &[f64; BLOCK], places: &mut [f64; BLOCK]) -> u64 {
             results::<Information, FUSED>(table, cells, places)
         }
     );
     by_target!(
-        fn occupancy(table: &Table, cells: &[f64; BLOCK], places: &mut [f64; BLOCK]) {
+        fn occupancy(table: &Table, cells: &[f64; BLOCK], places: &mut [f64; BLOCK]) -> u64 {
             results::<Occupancy, FUSED>(table, cells, places)
+        }
+    );
+    by_target!(
+        fn far_entropy(powers: &Powers, cells: &[f64; BLOCK], places: &mut [f64; BLOCK]) {
+            far::results::<Entropy, FUSED>(powers, cells, places)
+        }
+    );
+    by_target!(
+        fn far_occupancy(powers: &Powers, cells: &[f64; BLOCK], places: &mut [f64; BLOCK]) {
+            far::results::<Occupancy, FUSED>(powers, cells, places)
         }
     );
 
@@ -290,7 +310,9 @@ mod double_log_odds {
     }
 
     pub(super) fn entropies(cells: &[f64; BLOCK], places: &mut [f64; BLOCK]) {
-        entropy(&TABLE, cells, places);
+        if are_far(cells) || entropy(&TABLE, cells, places) > FEW {
+            far_entropy(&OF_ENTROPY, cells, places);
+        }
     }
 
     pub(super) fn informations(cells: &[f64; BLOCK], places: &mut [f64; BLOCK]) {
@@ -298,7 +320,14 @@ mod double_log_odds {
     }
 
     pub(super) fn occupancies(cells: &[f64; BLOCK], places: &mut [f64; BLOCK]) {
-        occupancy(&OCCUPANCY, cells, places);
+        if are_far(cells) || occupancy(&OCCUPANCY, cells, places) > FEW {
+            far_occupancy(&OF_OCCUPANCY, cells, places);
+        }
+    }
+
+    /// Returns whether all cells of a block are far.
+    fn are_far(cells: &[f64; BLOCK]) -> bool {
+        cells.iter().all(|l| is_far(l.abs()))
     }
 }
 

@@ -30,7 +30,7 @@ fn all() -> impl Iterator<Item = &'static Inequality> {
 }
 
 /// The statements that no search at points can try, and why.
-const ELSEWHERE: [(&str, &str, &str); 26] = [
+const ELSEWHERE: [(&str, &str, &str); 27] = [
     ("cell", "Theorem (no ties)", "no inequality"),
     ("evidence", "Theorem (removal)", "an equality, bit for bit: tests/library/scan/removal.rs"),
     (
@@ -85,6 +85,11 @@ const ELSEWHERE: [(&str, &str, &str); 26] = [
         "sums",
         "Theorem (log-odds)",
         "an equality, bit for bit: tests/library/elementwise.rs, proofs/exhaust.sh",
+    ),
+    (
+        "sums",
+        "Theorem (far log-odds)",
+        "an equality, bit for bit: tests/library/elementwise.rs, tests/library/tally.rs, proofs/exhaust.sh",
     ),
     ("rounding", "Lemma (ties)", "no inequality"),
     ("rounding", "Lemma (Horner)", "machine-checked: proofs/*.gappa"),

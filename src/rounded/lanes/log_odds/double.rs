@@ -3,6 +3,7 @@
 //! `V(c + h) = V(c) + h V'(c) + h^2 (a_2 + a_3 h + ... + a_7 h^5)`, and a rounding test. The bounds are those of theorem
 //! (log-odds) in the chapter [`sums`](crate::book::sums), whose paragraphs the comments name.
 
+use super::far::CERTAIN;
 use super::table::{FIRST, LAST, SEVENTH, SIXTH, Table, centre};
 use super::{NEAR, Quantity};
 use crate::rounded::lanes::format::{BLOCK, Lane};
@@ -11,13 +12,15 @@ use crate::rounded::lanes::kernel::{Block, Results, complements, fused, halves, 
 /// Bounds the error before rounding, relative to `V`: theorem (log-odds), *Error in `f64`*.
 pub(super) const ERROR: f64 = 1.2e-19; // 2^-62.85
 
-/// Stores a result of each cell: the nearest float, NaN at NaN, and [`Lane::OPEN`] where it is not decided.
+/// Stores a result of each cell: the nearest float, NaN at NaN, and [`Lane::OPEN`] where it is not decided. Returns the number of
+/// those that are open since they are beyond the table.
 #[inline(always)]
 pub(in super::super) fn results<Q: Quantity, const FUSED: bool>(
     table: &Table,
     cells: &[f64; BLOCK],
     results: &mut [f64; BLOCK],
-) {
+) -> u64 {
+    let mut left = 0;
     for (&l, result) in cells.iter().zip(results) {
         let a = l.abs();
         let (head, tail) = value::<FUSED>(table, inside(a));
@@ -27,13 +30,17 @@ pub(in super::super) fn results<Q: Quantity, const FUSED: bool>(
         let lower = if complement { other } else { head + below };
         let upper = if complement { other_above } else { head + above };
         let decided = if (a >= FIRST) & (lower == upper) { lower } else { f64::OPEN };
-        // Domain: beyond the table `1 - V` is 1 to the last bit, and `V` is 0 at infinity.
-        let end = if a == f64::INFINITY { 0.0 } else { f64::OPEN };
+        // Domain: beyond the table `1 - V` is 1 to the last bit, and `V` is 0 at the end.
+        let beyond = a > LAST;
+        let is_left = beyond & (a < CERTAIN) & !complement;
+        let end = if is_left { f64::OPEN } else { 0.0 };
         let certain = if complement { 1.0 } else { end };
-        let known = if a > LAST { certain } else { decided };
+        let known = if beyond { certain } else { decided };
+        left += u64::from(is_left);
         let known = if a == 0.0 { Q::UNKNOWN } else { known };
         *result = if l.is_nan() { l } else { known };
     }
+    left
 }
 
 /// Sums information over the cells of the given log-odds, and entropies or not.
@@ -56,7 +63,7 @@ pub(in super::super) fn sums<const FUSED: bool, const ENTROPY: bool>(
         let unknown = a == 0.0;
         let beyond = a > LAST;
         let mut done = (a >= FIRST) & !beyond;
-        let certain = if ENTROPY { a == f64::INFINITY } else { beyond };
+        let certain = if ENTROPY { a >= CERTAIN } else { beyond };
         if ENTROPY {
             done &= (value == value_above) & (other == other_above);
             let h = if near { other } else { value };

@@ -1,9 +1,11 @@
 //! Entropy, information and occupancy of many cells at once, from their log-odds.
 //!
 //! In both formats a value `V` is computed of which each result is either itself or `1 - V`: the information up to `|l| = 2`,
-//! the entropy from there on; or the smaller of the two probabilities.
+//! the entropy from there on; or the smaller of the two probabilities. In `f64` it is from a table as far as that goes, and from a
+//! series beyond ([`far`]).
 
 pub(super) mod double;
+pub(super) mod far;
 #[rustfmt::skip] // as `proofs/log_odds.sollya` writes it
 #[expect(clippy::excessive_precision)]
 mod polynomials;

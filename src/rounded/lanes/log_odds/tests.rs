@@ -1,7 +1,8 @@
 //! The kernels of log-odds against the enclosures, and their blocks against cells one by one.
 
+use super::far::{CERTAIN, FARTHEST, OF_ENTROPY, OF_OCCUPANCY};
 use super::table::{FIRST, LAST, SEVENTH, SIXTH, Table, centres, of_information, of_occupancy};
-use super::{Entropy, Information, NEAR, Occupancy, Quantity, double, single};
+use super::{Entropy, Information, NEAR, Occupancy, Quantity, double, far, single};
 use crate::cell::{Cell, State, entropy_from_log_odds, information_from_log_odds, occupancy_from_log_odds};
 use crate::real::Real;
 use crate::rounded::beyond_float::{self, Fixed};
@@ -15,6 +16,8 @@ use alloc::vec::Vec;
 use core::sync::atomic::{AtomicU64, Ordering};
 use proptest::prelude::*;
 use std::sync::LazyLock;
+
+mod beyond;
 
 static TABLE: LazyLock<Table> = LazyLock::new(|| Table::new(of_information));
 static OCCUPANCY: LazyLock<Table> = LazyLock::new(|| Table::new(of_occupancy));
@@ -48,8 +51,12 @@ impl Kernels for f64 {
         double::sums::<FUSED, ENTROPY>(&TABLE, cells, results)
     }
     fn results<Q: Quantity, const FUSED: bool>(cells: &[f64; BLOCK], results: &mut [f64; BLOCK]) {
-        let table = if Q::OF_OCCUPANCY { &OCCUPANCY } else { &TABLE };
-        double::results::<Q, FUSED>(table, cells, results);
+        let (table, powers) =
+            if Q::OF_OCCUPANCY { (&OCCUPANCY, &OF_OCCUPANCY) } else { (&TABLE, &OF_ENTROPY) };
+        let left = double::results::<Q, FUSED>(table, cells, results);
+        let open = |l: &f64| (LAST..CERTAIN).contains(&l.abs()) && l.abs() > LAST && !Q::is_complement(*l);
+        assert_eq!(left, cells.iter().filter(|l| open(l)).count() as u64);
+        far::results::<Q, FUSED>(powers, cells, results);
     }
 }
 
@@ -158,7 +165,7 @@ fn special<T: Kernels>() {
         let ulp = x * T::epsilon();
         [x, x + ulp, x - ulp / (T::one() + T::one()), -x]
     };
-    let borders = [FIRST, NEAR, 4.0, 34.7, LAST, 64.0, 72.0, 104.0, 128.0, 745.0, 1024.0];
+    let borders = [FIRST, NEAR, 4.0, 34.7, LAST, 64.0, 72.0, 104.0, 128.0, FARTHEST, 745.0, CERTAIN, 1024.0];
     // Where entropies are in the next part of a sum: `f32` from 2^-21 and 2^-71 on, `f64` from 2^-50.
     for border in borders.into_iter().chain([21, 50, 71].map(where_entropy_is)) {
         check(&filled(&beside(border)));
@@ -180,7 +187,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(32))]
     /// Towards 0, and towards certainty.
     #[test]
-    fn blocks_are_cells_one_by_one(cells in prop::collection::vec(-1.0_f64..1.0, BLOCK), exponent in -40_i32..8) {
+    fn blocks_are_cells_one_by_one(cells in prop::collection::vec(-1.0_f64..1.0, BLOCK), exponent in -40_i32..11) {
         let scale = f64::from_parts(1, exponent);
         let cells: Vec<f64> = cells.iter().map(|x| x * scale).collect();
         let decided = check(&filled(&cells));
@@ -192,19 +199,28 @@ proptest! {
     }
 }
 
-/// In units of `2^-120`.
-fn units(x: Fixed) -> i128 {
-    match -120 - x.exponent {
+/// In units of `2^unit`.
+fn in_units(x: Fixed, unit: i32) -> i128 {
+    match unit - x.exponent {
         up @ ..0 => (x.value << -up) as i128,
         down => shift_right(x.value, down) as i128,
     }
 }
 
 /// The same of a float, with its sign.
-fn units_of(x: f64) -> i128 {
+fn float_in_units(x: f64, unit: i32) -> i128 {
     let (value, exponent) = x.parts();
-    let magnitude = units(Fixed { value: value.into(), exponent });
+    let magnitude = in_units(Fixed { value: value.into(), exponent }, unit);
     if x < 0.0 { -magnitude } else { magnitude }
+}
+
+/// In units of `2^-120`.
+fn units(x: Fixed) -> i128 {
+    in_units(x, -120)
+}
+
+fn units_of(x: f64) -> i128 {
+    float_in_units(x, -120)
 }
 
 /// `V` of a table, from its enclosure.
@@ -284,7 +300,7 @@ fn every_single_by_every_kernel() {
     });
 }
 
-/// Ten million `f64`: half as they are in maps, half of every magnitude from `2^-33` to `2^6`.
+/// Ten million `f64`: a third as they are in maps, a third of every magnitude from `2^-33` to `2^6`, and a third far.
 #[test]
 #[ignore = "a minute in release mode: proofs/exhaust.sh"]
 fn random_doubles_by_every_kernel() {
@@ -295,10 +311,10 @@ fn random_doubles_by_every_kernel() {
             state ^= state >> 7;
             state ^= state << 17;
             let uniform = (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0;
-            if k % 2 == 0 {
-                12.0 * uniform
-            } else {
-                (1.0 + uniform) * f64::from_parts(1, (state % 39) as i32 - 33)
+            match k % 3 {
+                0 => 12.0 * uniform,
+                1 => (1.0 + uniform) * f64::from_parts(1, (state % 39) as i32 - 33),
+                _ => (LAST + (FARTHEST - LAST) * uniform.abs()).copysign(uniform),
             }
         })
     });

@@ -162,6 +162,18 @@ mod tests {
         assert!(!recur(&column));
         let half: Vec<f64> = values(100, 1 << 16).into_iter().flat_map(|x| [x, f64::NAN]).collect();
         assert!(recur(&half));
+        // Of 64 that are looked at a quarter is new, and a quarter and one.
+        assert!(recur(&values(16, 1 << 12)) && !recur(&values(17, 1 << 12)));
+        let begins_alike: Vec<f64> = (0..1 << 20).map(|k| f64::from(k.max(1 << 12))).collect();
+        assert!(!recur(&begins_alike));
+    }
+
+    /// Also the value that fills empty slots, and one that lost its slot to another.
+    #[test]
+    fn a_value_is_new_once_while_it_has_its_slot() {
+        let mut seen = Repeated::new(2, 0);
+        assert!(seen.is_new(0, 1) && !seen.is_new(0, 1));
+        assert!(seen.is_new(5, 1) && !seen.is_new(5, 1) && seen.is_new(0, 1));
     }
 
     #[test]

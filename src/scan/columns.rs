@@ -160,8 +160,8 @@ impl Track {
     fn rows_exactly_at(&self, line: u64) -> [u64; 2] {
         let (height, row) = (self.height(line), u128::from(self.long.length) << FRACTION);
         let next = (height / row) as u64;
-        // Along a line it stays above.
-        let is_corner = height % row == 0 && self.wide.length > 0;
+        let is_corner = height % row == 0;
+        // Along a line it stays above, in row 0.
         [next - u64::from(is_corner && next > 0), next]
     }
 

@@ -91,6 +91,10 @@ mod tests {
             [0.25, 0.75, -0.25, -0.75].map(|part| decided(units + part, units)),
             [0, 1, 0, -1].map(|k| Some((1 << 34) + k))
         );
+        assert_eq!(
+            [0.25, 0.75, -0.25, -0.75].map(|part| decided(part - units, units)),
+            [0, 1, 0, -1].map(|k| Some(k - (1 << 34)))
+        );
         for (x, scale) in [
             (0.5, 1.0),
             (-2.5, 4.0),

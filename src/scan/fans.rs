@@ -110,39 +110,68 @@ mod tests {
         [place(), place()]
     }
 
+    /// Compares what is drawn with the cells of all sure columns: whatever is shared, these and no others.
+    fn check(start: Point, beams: &[(Point, u64)], is_clockwise: bool) -> Result<(), TestCaseError> {
+        let mut area = Area::of_cell(cell_of(start)).with_columns(64);
+        let mut tracks = Vec::new();
+        for &(end, length) in beams {
+            area = area.union(Area::of_cell(cell_of(end)));
+            tracks.push(Track::new(start, end, length));
+        }
+        let mut canvas = Canvas::new(area, u64::MAX).unwrap();
+        let mut expected = BTreeSet::new();
+        for ((track, shared), &(end, _)) in tracks.iter().zip(shares(&tracks, is_clockwise)).zip(beams) {
+            track.draw(shared, &mut canvas);
+            let rest: Vec<_> =
+                track.rest().flat_map(|column| track.cells(column)).map(|(cell, _)| cell).collect();
+            let all: Vec<_> = Traversal::new(start, end).collect();
+            prop_assert_eq!(&rest[..], &all[all.len() - rest.len()..]);
+            expected.extend(all[..all.len() - rest.len()].iter().copied());
+        }
+        let codes = canvas.settled();
+        for row in area.rows() {
+            for (column, &code) in (area.low()[0]..).zip(codes.row(area, row)) {
+                prop_assert_eq!(code == FREE, expected.contains(&[column, row]), "{:?}", [column, row]);
+            }
+        }
+        Ok(())
+    }
+
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(300))]
 
-        /// The cells of all sure columns, whatever is shared, and no others.
         #[test]
         fn fans_are_the_cells_of_their_beams(start in start(), first in prop_oneof![0.0_f64..1.0, (0_u32..8).prop_map(|k| f64::from(k) / 8.0)], beams in beams(), is_clockwise in any::<bool>()) {
-            let mut area = Area::of_cell(cell_of(start)).with_columns(64);
-            let mut tracks = Vec::new();
-            let mut ends = Vec::new();
-            for &(turn, length, sure) in &beams {
+            let beam = |&(turn, length, sure): &(f64, f64, f64)| {
                 let direction = Direction::new(&[(first + turn) * std::f64::consts::TAU]).unwrap();
                 let end = [direction.cos(), direction.sin()].map(|part| (length * part * CELL as f64).round() as i64);
-                let end = [start[0] + end[0], start[1] + end[1]];
-                area = area.union(Area::of_cell(cell_of(end)));
-                tracks.push(Track::new(start, end, (length * sure * CELL as f64) as u64));
-                ends.push(end);
-            }
-            let mut canvas = Canvas::new(area, u64::MAX).unwrap();
-            let mut expected = BTreeSet::new();
-            for ((track, shared), end) in tracks.iter().zip(shares(&tracks, is_clockwise)).zip(ends) {
-                track.draw(shared, &mut canvas);
-                let rest: Vec<_> = track.rest().flat_map(|column| track.cells(column)).map(|(cell, _)| cell).collect();
-                let all: Vec<_> = Traversal::new(start, end).collect();
-                prop_assert_eq!(&rest[..], &all[all.len() - rest.len()..]);
-                expected.extend(all[..all.len() - rest.len()].iter().copied());
-            }
-            let codes = canvas.settled();
-            for row in area.rows() {
-                for (column, &code) in (area.low()[0]..).zip(codes.row(area, row)) {
-                    prop_assert_eq!(code == FREE, expected.contains(&[column, row]), "{:?}", [column, row]);
-                }
-            }
+                ([start[0] + end[0], start[1] + end[1]], (length * sure * CELL as f64) as u64)
+            };
+            check(start, &beams.iter().map(beam).collect::<Vec<_>>(), is_clockwise)?;
         }
+
+        /// Slopes of few cells, from corners and the middles of sides: many columns in which beams are a cell apart, and no less.
+        #[test]
+        fn so_are_fans_of_simple_slopes(start in [-2_i64..3, -2_i64..3], mut ends in vec([1_i64..40, -40_i64..40], 2..9), quarter in 0..4, is_clockwise in any::<bool>()) {
+            ends.sort_unstable_by_key(|[x, y]| (i128::from(*y) << 64) / i128::from(*x));
+            let turned = |end| (0..quarter).fold(end, |[x, y]: Point, _| [-y, x]);
+            let place = |end: Point| [0, 1].map(|k| (start[k] + end[k]) * (CELL / 2));
+            let beams: Vec<_> = ends.into_iter().map(|end| (place(turned(end)), u64::MAX >> 2)).collect();
+            check(place([0, 0]), &beams, is_clockwise)?;
+        }
+    }
+
+    /// A beam down through a corner and one up through the next, between which there is a cell; and beams that pass a corner below,
+    /// above and below it, which floats of their slopes do not tell apart.
+    #[test]
+    fn beams_that_are_a_cell_apart_or_none_share_nothing() {
+        let beam = |x: i64, y: i64| ([x, y], u64::MAX >> 2);
+        let half = CELL / 2;
+        check([0, half], &[beam(20 * half, -9 * half), beam(20 * half, 11 * half)], false).unwrap();
+        // With the corner at [2 w + 1, w] from the start a place at twice that and [2, 1] is above the line through it, by a unit of area.
+        let (start, corner) = ([1, 1], [16 * CELL, 8 * CELL]);
+        let past = |more: i64| beam(2 * corner[0] - 1 + 2 * more, 2 * corner[1] - 1 + more);
+        check(start, &[past(-1), past(1), past(-1)], false).unwrap();
     }
 
     /// Those of a scan that begins behind the sensor, in `[-π, π)`, turn as the others do.
@@ -153,6 +182,7 @@ mod tests {
         let mut beams: Vec<_> = (0..720).map(turned).collect();
         assert!(beams[0].bearing > beams[719].bearing, "by the first and the last alone");
         assert!(!is_clockwise(&beams) && !is_clockwise(&beams[..1]));
+        assert!(!is_clockwise(&[beams[0]; 9]), "they go nowhere");
         beams.reverse();
         assert!(is_clockwise(&beams) && is_clockwise(&beams[..2]));
     }

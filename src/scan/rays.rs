@@ -237,3 +237,78 @@ fn start<T: Real>(lattice: Lattice, scan: &Scan<T>) -> Result<Point, Error> {
     };
     Ok([place("x of the pose", x)?, place("y of the pose", y)?])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::pose::Pose;
+    use super::super::scan_map::ScanMap;
+    use super::*;
+    use crate::sensor::SteppedSensor;
+    use core::cell::Cell;
+
+    /// Steps that count how often they are asked.
+    struct Asked<'a>(SteppedSensor<f64>, &'a Cell<u64>);
+
+    impl InverseSensorModel for Asked<'_> {
+        type Float = f64;
+
+        fn occupancy(&self, rho: f64) -> f64 {
+            self.1.set(self.1.get() + 1);
+            self.0.occupancy(rho)
+        }
+
+        fn reach(&self) -> f64 {
+            self.0.reach()
+        }
+
+        fn plateau(&self) -> f64 {
+            self.0.plateau()
+        }
+
+        fn obstacle(&self) -> Option<([f64; 2], f64)> {
+            self.0.obstacle()
+        }
+    }
+
+    /// The beams of a scan in a room, 5 cm to a cell, whose walls are as thick; the first is given, and free space by its range.
+    fn rays<M: InverseSensorModel<Float = f64>>(
+        first: Beam<f64>,
+        model: impl Fn(SteppedSensor<f64>) -> M,
+    ) -> Rays<M> {
+        let beam = |k: u32| {
+            let bearing = f64::from(k) * 0.02;
+            Beam { bearing, range: Some(2.0 + 0.25 * bearing) }
+        };
+        let pose = Pose::new(0.61, -0.37, 0.1).unwrap();
+        let scan = Scan::new(pose, 9.0, core::iter::once(first).chain((1..300).map(beam)).collect()).unwrap();
+        let map = ScanMap::<f64>::new(0.05).unwrap();
+        let steps = |range| SteppedSensor::new(range, 0.05, if range < 0.1 { 0.375 } else { 0.25 }, 0.875);
+        Rays::new(map.lattice, map.limit, &scan, |range| Ok(model(steps(range)?))).unwrap()
+    }
+
+    /// A model with its levels is asked at 0 and at the side of a cell, and no more; and all beams but the first wall, which is
+    /// the level of the others, are said at once.
+    #[test]
+    fn levels_are_said_at_once_and_of_no_cell_is_the_model_asked() {
+        let asked = Cell::new(0);
+        let rays = rays(Beam { bearing: 0.0, range: Some(2.0) }, |steps| Asked(steps, &asked));
+        assert_eq!(asked.get(), 600);
+        let mut drafts = Drafts::new(rays.area, rays.free, u64::MAX).unwrap();
+        for (index, (track, segment)) in rays.tracks.iter().zip(&rays.segments).enumerate() {
+            let is_said = segment.say_levels(track, &mut drafts);
+            assert_eq!(is_said, index > 0, "{index}");
+            if !is_said {
+                rays.say_rest(index, &mut None, &mut drafts).unwrap();
+            }
+        }
+        assert_eq!(asked.get(), 600);
+    }
+
+    /// A first beam that ends in the cell of the sensor, where free space is another to it, does not keep the others from being drawn.
+    #[test]
+    fn a_beam_without_free_cells_does_not_tell_what_is_drawn() {
+        let rays = rays(Beam { bearing: 0.0, range: Some(0.03) }, |steps| steps);
+        assert_eq!(rays.free, 0.25);
+        assert!(rays.shared_columns() > 1000);
+    }
+}

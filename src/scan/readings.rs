@@ -229,3 +229,19 @@ impl<T: Real> Drafts<T> {
 pub(super) fn stronger<T: Real>(a: T, b: T) -> T {
     if a > T::HALF || b > T::HALF { a.max(b) } else { a.min(b) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of an occupied and a free reading the former, of two alike the surer one, and of 1/2 and another the other, in either order.
+    #[test]
+    fn the_stronger_reading_is_so_in_any_order() {
+        let by_strength = [0.5_f64, 0.375, 0.0, 0.5625, 0.875, 1.0];
+        for (k, &b) in by_strength.iter().enumerate() {
+            for &a in &by_strength[..=k] {
+                assert_eq!([stronger(a, b), stronger(b, a)], [b; 2], "{a} and {b}");
+            }
+        }
+    }
+}

@@ -94,6 +94,19 @@ fn dense() -> impl Strategy<Value = Scan<f64>> {
     })
 }
 
+/// A scan from the centre of a cell of 25 cm, along axes and through the centres at 3 by 4 cells, of lengths in eighths of a metre.
+fn centred() -> impl Strategy<Value = Scan<f64>> {
+    // The arc tangents of 3/4 and 4/3.
+    let angles = prop_oneof![Just(0.0), Just(0.643_501_108_793_284_4), Just(0.927_295_218_001_612_2)];
+    let beam = (angles, 0_u32..4, 2_u32..26).prop_map(|(angle, quarters, eighths)| Beam {
+        bearing: angle + f64::from(quarters) * std::f64::consts::FRAC_PI_2,
+        range: Some(f64::from(eighths) / 8.0),
+    });
+    let centre = || (-8_i32..8).prop_map(|k| f64::from(2 * k + 1) / 8.0);
+    (centre(), centre(), vec(beam, 2..12))
+        .prop_map(|(x, y, beams)| Scan::new(Pose::new(x, y, 0.0).unwrap(), 3.25, beams).unwrap())
+}
+
 /// Sides of cells of which most near the sensor are shared, and limits.
 fn fine() -> impl Strategy<Value = [f64; 2]> {
     [prop_oneof![Just(0.025), 0.02_f64..0.03].boxed(), prop_oneof![Just(3.5), 0.2_f64..40.0].boxed()]
@@ -190,6 +203,20 @@ proptest! {
         check(&scans, setting, removed, |range| SteppedSensor::new(range, 0.125, free[usize::from(range > from)], 0.875))?;
     }
 
+    /// Of obstacles that differ, all of them surer than the limit: of one cell, told two of them, the reading is added once.
+    #[test]
+    fn obstacles_beyond_the_limit_are_those_of_the_reference(scans in scans(), removed in 0_usize..5, occupied in [0.9..1.0, 0.9..1.0]) {
+        let of = |range: f64| occupied[(range * 64.0) as usize % 2];
+        check(&scans, [0.25, 2.0], removed, |range| SteppedSensor::new(range, 0.25, 0.25, of(range)))?;
+    }
+
+    /// Of walls that begin and end at the centres of cells, where no square of a distance decides.
+    #[test]
+    fn walls_from_centre_to_centre_are_those_of_the_reference(scan in centred(), thickness in prop_oneof![Just(0.25), Just(0.5)]) {
+        check(std::slice::from_ref(&scan), [0.25, 3.5], 1, |range| SteppedSensor::new(range, thickness, 0.25, 0.875))?;
+        check(&[single(&scan)], [0.25, 3.5], 1, |range| SteppedSensor::new(range, thickness as f32, 0.25, 0.875))?;
+    }
+
     #[test]
     fn the_model_of_eq_5_is_that_of_the_reference(
         scans in scans(), setting in setting(), removed in 0_usize..5, sigma in prop_oneof![0.002_f64..0.3, Just(0.05)],
@@ -198,6 +225,30 @@ proptest! {
         let scans: Vec<_> = scans.iter().map(single).collect();
         check(&scans, setting, removed, |range| GaussianSensor::new(range, sigma as f32))?;
     }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    /// Of few beams whose walls begin one to four cells from the sensor: a beam cuts off corners of cells whose centres are farther.
+    #[test]
+    fn near_walls_are_those_of_the_reference(
+        place in [-0.5_f64..0.5, -0.5_f64..0.5], beams in vec((-4.0_f64..4.0, 0.25_f64..0.9), 1..5),
+    ) {
+        let beam = |(bearing, near)| Beam { bearing, range: Some(near + 0.5) };
+        let beams = beams.into_iter().map(beam).collect();
+        let scan = Scan::new(Pose::new(place[0], place[1], 0.0)?, 3.25, beams)?;
+        check(&[scan], [0.25, 3.5], 0, |range| SteppedSensor::new(range, 1.0, 0.25, 0.875))?;
+    }
+}
+
+/// A beam past the corner of a cell, above it, whose wall begins behind the corner and before the centre of that cell.
+#[test]
+fn a_cell_is_not_free_where_only_its_corner_is() {
+    let pose = Pose::new(0.125, 0.13, 0.0).unwrap();
+    let beam = Beam { bearing: std::f64::consts::FRAC_PI_4, range: Some(1.0425) };
+    let scan = Scan::new(pose, 3.25, [beam].into()).unwrap();
+    check(&[scan], [0.25, 3.5], 0, |range| SteppedSensor::new(range, 1.0, 0.25, 0.875)).unwrap();
 }
 
 /// What neighbours share is drawn once; of nearly all scans it is most of the columns near the sensor.

@@ -110,6 +110,16 @@ mod tests {
     use proptest::collection::vec;
     use proptest::prelude::*;
 
+    /// A map of one column has no room for 64.
+    #[test]
+    fn short_rows_stay_short() {
+        for columns in 1..WORD {
+            let area = Area::of_cell([-5, 3]).with_columns(columns);
+            assert_eq!(whole(area), area);
+            assert!(Stretches::new(area).unwrap().are_none());
+        }
+    }
+
     proptest! {
         /// Stretches along both axes, some across words and some empty, none of two of one axis in one line.
         #[test]

@@ -118,6 +118,8 @@ mod tests {
             one_by_one.add(x);
         }
         let (mut parts, some_are_small) = large(results);
+        let least = T::from_parts(1, -binades::<T>());
+        assert_eq!(some_are_small, results.iter().any(|&x| x > T::zero() && x < least));
         if some_are_small {
             add_small(&mut parts, results);
         }
@@ -132,7 +134,7 @@ mod tests {
         assert_eq!((binades::<f32>(), binades::<f64>()), (21, 50));
     }
 
-    /// The ends of each part, alone in a block and in all of it.
+    /// The ends of each part: alone in a block, with each of the others, and in all of it.
     #[test]
     fn the_ends_of_the_parts() {
         let ends = [0, 20, 21, 22, 50, 51, 71, 72, 97, 99, 100, 101, 149].map(|k| f64::from_parts(1, -k));
@@ -140,6 +142,10 @@ mod tests {
             check(&[x; BLOCK]);
             check(&core::array::from_fn(|k| if k == 77 { x } else { 0.75 }));
             check(&[x as f32; BLOCK]);
+            for y in ends {
+                check(&core::array::from_fn(|k| if k == 77 { x } else { y }));
+                check(&core::array::from_fn(|k| if k == 77 { x as f32 } else { y as f32 }));
+            }
         }
         for x in [1, 0x7f_ffff, 0x80_0000].map(f32::from_bits) {
             check(&[x; BLOCK]);

@@ -184,6 +184,8 @@ fn check<T: Lane, const FUSED: bool, const ENTROPY: bool>(
     let mut states = Vec::new();
     let open: Vec<T> = block.open(cells).collect();
     assert!(open.iter().all(|&p| Cell::from_occupancy(p).is_ok()), "only cells are left open");
+    let undecided = stored.iter().filter(|&&result| result == T::OPEN).count();
+    assert!(undecided <= open.len(), "one result of a cell is undecided where both are decided");
     let mut left = open.iter().copied().peekable();
     for (&p, &single) in cells.iter().zip(singles) {
         if left.next_if(|&x| x == p).is_some() {

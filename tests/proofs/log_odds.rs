@@ -25,7 +25,7 @@ pub(crate) fn polynomials() -> BTreeMap<String, Vec<String>> {
 }
 
 /// The text of a statement such as `1.2e-19` in `const ERROR: f64 = 1.2e-19;`.
-fn constant(file: &str, name: &str) -> String {
+pub(crate) fn constant(file: &str, name: &str) -> String {
     let text = source_of(file);
     let (_, value) = text.split_once(&format!("const {name}: f64 = ")).expect("the constant");
     value.split_once(';').expect("an end").0.to_owned()

@@ -9,6 +9,10 @@ pub(crate) const BLOCK: usize = 256;
 pub(super) const CELL_BITS: u32 = 7;
 /// The centres of one half of the table, a power of two so that an index is a mask.
 pub(super) const HALF: usize = 4096;
+/// Bounds the tables: smaller distances have no centre.
+pub(super) const LEAST: f32 = f32::from_bits((127 - BINADES as u32) << 23); // 2^-32
+/// The binades of distances that have centres.
+const BINADES: i32 = 32;
 
 /// Names a format of floats and the integer of its bits: one lane of a vector.
 pub(crate) trait Lane: Real {
@@ -21,31 +25,15 @@ pub(crate) trait Lane: Real {
         + Send
         + Sync
         + 'static;
-    /// Bounds the table: distances below `2^-BINADES` have no centre.
-    const BINADES: i32;
-    /// Counts the coefficients of the polynomial.
-    const TERMS: usize;
-    /// Bounds the error before rounding, relative to the value that is summed up: theorem (blocks), *Error*.
-    const ERROR: Self;
-
     /// Stands for a result that is not decided; results are in `[0, 1]`.
     const OPEN: Self;
 
-    /// Returns the centre of the table's cell in which `x` in `[2^-BINADES, 1/2]` lies, and the cell's number in its
+    /// Returns the centre of the table's cell in which `x` in `[LEAST, 1/2]` lies, and the cell's number in its
     /// half. Returns any pair, the number below [`HALF`], for other `x`.
     fn centre(x: Self) -> (Self, u32);
 
     /// Returns the centre of the cell of a number; `None` beyond the last.
     fn centre_of(number: usize) -> Option<Self>;
-
-    /// Packs two floats of few bits into one word: the slope's rest into the last bits of the value's.
-    fn pack(value: Self, slope: Self) -> Self::Word;
-
-    /// Returns the floats of [`Lane::pack`], the first with the second's bits as noise in its last ones.
-    fn unpack(word: Self::Word) -> (Self, Self);
-
-    /// Cuts the float to 9 bits, towards zero.
-    fn head(self) -> Self;
 
     /// Computes `a b + c`, rounded once.
     fn fused(a: Self, b: Self, c: Self) -> Self;
@@ -61,19 +49,16 @@ pub(crate) trait Lane: Real {
 }
 
 macro_rules! impl_lane {
-    ($float:ident, $word:ident, $signed:ident, $binades:literal, $terms:literal, $slope:literal, $error:literal) => {
+    ($float:ident, $word:ident, $signed:ident) => {
         impl Lane for $float {
             type Word = $word;
-            const BINADES: i32 = $binades;
-            const TERMS: usize = $terms;
-            const ERROR: Self = $error;
             const OPEN: Self = -1.0;
 
             #[inline(always)]
             fn centre(x: Self) -> (Self, u32) {
                 // Series: the bits of a binade's cell are the leading ones of the significand.
                 const BELOW: u32 = $float::PRECISION - 1 - CELL_BITS;
-                const FIRST: $word = (($float::MAX_EXP - 1 - $binades) as $word) << CELL_BITS;
+                const FIRST: $word = (($float::MAX_EXP - 1 - BINADES) as $word) << CELL_BITS;
                 // Exponent and cell together count the cells from the first binade on.
                 let cell = x.to_bits() >> BELOW;
                 // The half of a cell is one bit more: 9 bits, so that `x - c` is exact.
@@ -82,35 +67,10 @@ macro_rules! impl_lane {
             }
 
             fn centre_of(number: usize) -> Option<Self> {
-                let binade = $float::from_parts(1, (number >> CELL_BITS) as i32 - $binades);
+                let binade = $float::from_parts(1, (number >> CELL_BITS) as i32 - BINADES);
                 let x =
                     binade + (number % (1 << CELL_BITS)) as $float * (binade / (1 << CELL_BITS) as $float);
                 (x <= 0.5).then(|| Self::centre(x).0)
-            }
-
-            fn pack(value: Self, slope: Self) -> $word {
-                const LOW: $word = (1 << $slope) - 1;
-                const DOWN: u32 = 8 * size_of::<$word>() as u32 - $slope;
-                // Error, slope: to the nearest of 13 bits, in `f32` of 4.
-                let slope = (slope.to_bits() >> (DOWN - 1)).div_ceil(2);
-                // Error, value: to 29 bits, in `f32` 12. Of the words with these last bits, the nearest.
-                let below = value.to_bits() & !LOW | slope;
-                let beside = [below, below.wrapping_sub(LOW + 1), below.wrapping_add(LOW + 1)];
-                let distance = |word: &$word| ($float::from_bits(*word) - value).abs();
-                beside.into_iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(below)
-            }
-
-            #[inline(always)]
-            fn unpack(word: $word) -> (Self, Self) {
-                const UP: u32 = 8 * size_of::<$word>() as u32 - $slope;
-                (Self::from_bits(word), Self::from_bits(word << UP))
-            }
-
-            #[inline(always)]
-            fn head(self) -> Self {
-                // Error, slope: 9 bits, since `x - c` has the others.
-                const BELOW: u32 = $float::PRECISION - 9;
-                Self::from_bits(self.to_bits() & !((1 << BELOW) - 1))
             }
 
             #[inline(always)]
@@ -136,5 +96,47 @@ macro_rules! impl_lane {
     };
 }
 
-impl_lane!(f32, u32, i32, 32, 3, 12, 7.4e-11); // 2^-33.65
-impl_lane!(f64, u64, i64, 32, 6, 24, 6e-20); // 2^-63.85
+impl_lane!(f32, u32, i32);
+impl_lane!(f64, u64, i64);
+
+/// Splits a float in two: what only lanes of `f64` need, since there is no wider float.
+pub(super) trait Split: Sized {
+    /// Packs two floats of few bits into one word: the slope's rest into the last bits of the value's.
+    fn pack(value: Self, slope: Self) -> u64;
+
+    /// Returns the floats of [`Split::pack`], the first with the second's bits as noise in its last ones.
+    fn unpack(word: u64) -> (Self, Self);
+
+    /// Cuts the float to 9 bits, towards zero.
+    fn head(self) -> Self;
+}
+
+/// The bits of a word that hold the slope's rest.
+const SLOPE: u32 = 24;
+
+impl Split for f64 {
+    fn pack(value: Self, slope: Self) -> u64 {
+        const LOW: u64 = (1 << SLOPE) - 1;
+        const DOWN: u32 = u64::BITS - SLOPE;
+        // Error, slope: to the nearest of 13 bits.
+        let slope = (slope.to_bits() >> (DOWN - 1)).div_ceil(2);
+        // Error, value: to 29 bits. Of the words with these last bits, the nearest.
+        let below = value.to_bits() & !LOW | slope;
+        let beside = [below, below.wrapping_sub(LOW + 1), below.wrapping_add(LOW + 1)];
+        let distance = |word: &u64| (Self::from_bits(*word) - value).abs();
+        beside.into_iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(below)
+    }
+
+    #[inline(always)]
+    fn unpack(word: u64) -> (Self, Self) {
+        const UP: u32 = u64::BITS - SLOPE;
+        (Self::from_bits(word), Self::from_bits(word << UP))
+    }
+
+    #[inline(always)]
+    fn head(self) -> Self {
+        // Error, slope: 9 bits, since `x - c` has the others.
+        const BELOW: u32 = f64::MANTISSA_DIGITS - 9;
+        Self::from_bits(self.to_bits() & !((1 << BELOW) - 1))
+    }
+}

@@ -2,18 +2,19 @@
 //!
 //! Ziv's strategy once more, with a first step in floating point and without branches, which compilers turn into vector
 //! instructions: about each of some thousand centres, value and slope are known to twice the precision ([`table`]), the
-//! rest is a short polynomial ([`kernel`]), and a rounding test shows whether the sum of them all has one nearest
+//! rest is a short polynomial ([`single`], [`double`]), and a rounding test shows whether the sum of them all has one nearest
 //! float. The few cells that fail it are left to [`CellEnclosures`](super::CellEnclosures). So every vector unit gives
-//! the same bits: the right ones. The results are summed up ([`sum`]), or stored one by one ([`elementwise`]); [`log_odds`] has
+//! the same bits: the right ones. The results are stored one by one, or summed up ([`sum`]); [`log_odds`] has
 //! the same for log-odds. The proofs are in the chapter [`sums`](crate::book::sums).
 
 // A call or a branch in the loop and it is no longer made into vector instructions.
 #![allow(clippy::inline_always, clippy::needless_bitwise_bool)]
 
-mod elementwise;
+mod double;
 mod format;
 mod kernel;
 mod log_odds;
+mod single;
 mod sum;
 mod table;
 
@@ -24,13 +25,12 @@ use crate::real::{Floats, Pair, Real};
 use multiversion::multiversion;
 use multiversion::target::target_cfg_f;
 use std::sync::LazyLock;
-use table::Table;
 
 /// Sums entropy and information over a block of occupancies, by the widest vector unit at hand.
 pub(crate) fn sums<T: Real>(cells: &[T; BLOCK], results: &mut Results<T>) -> Block {
     let block = match T::pair(cells, results) {
-        Pair::Single(cells, results) => single::sums(cells, results),
-        Pair::Double(cells, results) => double::sums(cells, results),
+        Pair::Single(cells, results) => single_occupancies::sums(cells, results),
+        Pair::Double(cells, results) => double_occupancies::sums(cells, results),
     };
     with_small(block, results)
 }
@@ -38,8 +38,8 @@ pub(crate) fn sums<T: Real>(cells: &[T; BLOCK], results: &mut Results<T>) -> Blo
 /// Sums the information over a block of occupancies, without entropies.
 pub(crate) fn information<T: Real>(cells: &[T; BLOCK], results: &mut Results<T>) -> Block {
     let block = match T::pair(cells, results) {
-        Pair::Single(cells, results) => single::information(cells, results),
-        Pair::Double(cells, results) => double::information(cells, results),
+        Pair::Single(cells, results) => single_occupancies::information(cells, results),
+        Pair::Double(cells, results) => double_occupancies::information(cells, results),
     };
     with_small(block, results)
 }
@@ -48,16 +48,16 @@ pub(crate) fn information<T: Real>(cells: &[T; BLOCK], results: &mut Results<T>)
 /// not decided.
 pub(crate) fn entropies<T: Real>(cells: &[T; BLOCK], results: &mut [T; BLOCK]) {
     match T::pair(cells, results) {
-        Pair::Single(cells, results) => single::entropies(cells, results),
-        Pair::Double(cells, results) => double::entropies(cells, results),
+        Pair::Single(cells, results) => single_occupancies::entropies(cells, results),
+        Pair::Double(cells, results) => double_occupancies::entropies(cells, results),
     }
 }
 
 /// Stores the information of each occupancy of a block, as [`entropies`] does.
 pub(crate) fn informations<T: Real>(cells: &[T; BLOCK], results: &mut [T; BLOCK]) {
     match T::pair(cells, results) {
-        Pair::Single(cells, results) => single::informations(cells, results),
-        Pair::Double(cells, results) => double::informations(cells, results),
+        Pair::Single(cells, results) => single_occupancies::informations(cells, results),
+        Pair::Double(cells, results) => double_occupancies::informations(cells, results),
     }
 }
 
@@ -178,43 +178,57 @@ by_target!(
 
 /// Defines the kernels of occupancies for a format.
 macro_rules! of_occupancies {
-    ($format:ident, $float:ident) => {
-        mod $format {
-            use super::*;
+    ($name:ident, $float:ident, $format:ident, $table:path) => {
+        mod $name {
+            use super::$format::{results, sums as block};
+            use super::{BLOCK, Block, LazyLock, Results, multiversion, target_cfg_f};
+            use $table;
 
             /// Holds the table of the format, made when first needed.
-            static TABLE: LazyLock<Table<$float>> = LazyLock::new(Table::new);
+            static TABLE: LazyLock<Table> = LazyLock::new(Table::new);
 
-            of_occupancies!(sums: sums, $float, true);
-            of_occupancies!(sums: information, $float, false);
-            of_occupancies!(results: entropies, $float, true);
-            of_occupancies!(results: informations, $float, false);
-        }
-    };
-    (sums: $name:ident, $float:ident, $entropy:literal) => {
-        pub(super) fn $name(cells: &[$float; BLOCK], results: &mut Results<$float>) -> Block {
-            by_target! {
-                fn kernel(table: &Table<$float>, cells: &[$float; BLOCK], results: &mut Results<$float>) -> Block {
-                    Block::of::<$float, FUSED, $entropy>(table, cells, results)
+            by_target!(
+                fn both(table: &Table, cells: &[$float; BLOCK], results: &mut Results<$float>) -> Block {
+                    block::<FUSED, true>(table, cells, results)
                 }
-            }
-            kernel(&TABLE, cells, results)
-        }
-    };
-    (results: $name:ident, $float:ident, $entropy:literal) => {
-        pub(super) fn $name(cells: &[$float; BLOCK], results: &mut [$float; BLOCK]) {
-            by_target! {
-                fn kernel(table: &Table<$float>, cells: &[$float; BLOCK], results: &mut [$float; BLOCK]) {
-                    elementwise::of_occupancies::<$float, FUSED, $entropy>(table, cells, results)
+            );
+            by_target!(
+                fn one(table: &Table, cells: &[$float; BLOCK], results: &mut Results<$float>) -> Block {
+                    block::<FUSED, false>(table, cells, results)
                 }
+            );
+            by_target!(
+                fn entropy(table: &Table, cells: &[$float; BLOCK], places: &mut [$float; BLOCK]) {
+                    results::<FUSED, true>(table, cells, places)
+                }
+            );
+            by_target!(
+                fn only_information(table: &Table, cells: &[$float; BLOCK], places: &mut [$float; BLOCK]) {
+                    results::<FUSED, false>(table, cells, places)
+                }
+            );
+
+            pub(super) fn sums(cells: &[$float; BLOCK], results: &mut Results<$float>) -> Block {
+                both(&TABLE, cells, results)
             }
-            kernel(&TABLE, cells, results);
+
+            pub(super) fn information(cells: &[$float; BLOCK], results: &mut Results<$float>) -> Block {
+                one(&TABLE, cells, results)
+            }
+
+            pub(super) fn entropies(cells: &[$float; BLOCK], places: &mut [$float; BLOCK]) {
+                entropy(&TABLE, cells, places);
+            }
+
+            pub(super) fn informations(cells: &[$float; BLOCK], places: &mut [$float; BLOCK]) {
+                only_information(&TABLE, cells, places);
+            }
         }
     };
 }
 
-of_occupancies!(single, f32);
-of_occupancies!(double, f64);
+of_occupancies!(single_occupancies, f32, single, super::single::Table);
+of_occupancies!(double_occupancies, f64, double, super::table::Table);
 
 /// The kernels of log-odds in `f32`.
 mod single_log_odds {

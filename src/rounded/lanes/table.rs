@@ -1,6 +1,8 @@
-//! The table: value and slope of entropy and information at the centres, to twice the precision.
+//! The table of `f64`: value and slope of entropy and information at the centres, to twice the precision; and what that of `f32` is
+//! computed from.
 
-use super::format::{HALF, Lane};
+use super::format::{HALF, Lane, Split};
+use crate::real::Real;
 use crate::rounded::beyond_float::{self, Both, Fixed};
 use crate::rounded::constants::INV_LN2;
 use crate::rounded::fixed::mul_high;
@@ -14,34 +16,34 @@ use core::iter::repeat_n;
 /// distance `c` from unknown, and of the information at `q = c / 2`. A kernel needs two that are next to each other.
 ///
 /// Four arrays, since one load of a vector unit gathers from one array.
-pub(crate) struct Table<T: Lane> {
-    value: Box<[T; 3 * HALF]>,
-    slope: Box<[T; 3 * HALF]>,
-    low: Box<[T::Word; 3 * HALF]>,
-    inverse: Box<[T; 3 * HALF]>,
+pub(crate) struct Table {
+    value: Box<[f64; 3 * HALF]>,
+    slope: Box<[f64; 3 * HALF]>,
+    low: Box<[u64; 3 * HALF]>,
+    inverse: Box<[f64; 3 * HALF]>,
 }
 
 /// Refers to the two thirds of a [`Table`] that a kernel needs.
-pub(super) struct Rows<'a, T: Lane> {
+pub(super) struct Rows<'a> {
     /// Holds the value `V`, rounded.
-    pub(super) value: &'a [T; 2 * HALF],
+    pub(super) value: &'a [f64; 2 * HALF],
     /// Holds the slope `dV/dc`, rounded.
-    pub(super) slope: &'a [T; 2 * HALF],
+    pub(super) slope: &'a [f64; 2 * HALF],
     /// Holds what rounding took from both, packed into one word.
-    pub(super) low: &'a [T::Word; 2 * HALF],
+    pub(super) low: &'a [u64; 2 * HALF],
     /// Holds `1 / (2 q (1 - q))` with the sign of the curvature of `V`.
-    pub(super) inverse: &'a [T; 2 * HALF],
+    pub(super) inverse: &'a [f64; 2 * HALF],
 }
 
-impl<T: Lane> Table<T> {
-    /// Computes the table of a format.
+impl Table {
+    /// Computes the table.
     pub(super) fn new() -> Self {
-        let mut rows: Vec<Row<T>> = repeat_n(Row::default(), 3 * HALF).collect();
-        for (k, c) in (0..HALF).map_while(T::centre_of).enumerate() {
+        let mut rows: Vec<Row> = repeat_n(Row::default(), 3 * HALF).collect();
+        for (k, c) in (0..HALF).map_while(f64::centre_of).enumerate() {
             [rows[k], rows[2 * HALF + k]] = Row::small(c);
             rows[HALF + k] = Row::near(c);
         }
-        let column = |of: fn(&Row<T>) -> T| Box::new(core::array::from_fn(|k| of(&rows[k])));
+        let column = |of: fn(&Row) -> f64| Box::new(core::array::from_fn(|k| of(&rows[k])));
         Self {
             value: column(|row| row.value),
             slope: column(|row| row.slope),
@@ -52,7 +54,7 @@ impl<T: Lane> Table<T> {
 
     /// Returns the rows for a kernel with entropies or without.
     #[inline(always)]
-    pub(super) fn rows<const ENTROPY: bool>(&self) -> Rows<'_, T> {
+    pub(super) fn rows<const ENTROPY: bool>(&self) -> Rows<'_> {
         Rows {
             value: two_thirds::<_, ENTROPY>(&self.value),
             slope: two_thirds::<_, ENTROPY>(&self.slope),
@@ -70,45 +72,45 @@ pub(super) fn row<const ENTROPY: bool>(number: u32, near: bool) -> usize {
 
 /// Returns the first two thirds, or the last two.
 #[inline(always)]
-fn two_thirds<X, const FIRST: bool>(all: &[X; 3 * HALF]) -> &[X; 2 * HALF] {
+pub(super) fn two_thirds<X, const FIRST: bool>(all: &[X; 3 * HALF]) -> &[X; 2 * HALF] {
     let two = if FIRST { all.first_chunk() } else { all.last_chunk() };
     two.expect("three thirds have two")
 }
 
 /// Holds one row of the table.
 #[derive(Clone, Copy, Default)]
-struct Row<T: Lane> {
-    value: T,
-    slope: T,
-    low: T::Word,
-    inverse: T,
+struct Row {
+    value: f64,
+    slope: f64,
+    low: u64,
+    inverse: f64,
 }
 
-impl<T: Lane> Row<T> {
+impl Row {
     /// Computes the rows of the entropy, which is concave, and of the information, which falls, at `q = c / 2`.
-    fn small(c: T) -> [Self; 2] {
-        let ((entropy, information), slope, inverse) = around(c.widen() / 2.0);
+    fn small(c: f64) -> [Self; 2] {
+        let ((entropy, information), slope, inverse) = around(c / 2.0);
         [Self::new(entropy, slope, -inverse, false), Self::new(information, slope, inverse, true)]
     }
 
     /// Computes the row of the information at the distance `c` from unknown.
-    fn near(c: T) -> Self {
-        let ((_, information), slope, inverse) = around((1.0 - c.widen()) / 2.0);
+    fn near(c: f64) -> Self {
+        let ((_, information), slope, inverse) = around((1.0 - c) / 2.0);
         Self::new(information, slope, inverse, false)
     }
 
     /// Rounds a row: each of value and slope to a float and its rest.
     fn new(value: Fixed, slope: Fixed, inverse: f64, falls: bool) -> Self {
         let (value, value_low) = pair(value);
-        let (slope, slope_low) = pair::<T>(slope);
+        let (slope, slope_low) = pair(slope);
         let (slope, slope_low) = if falls { (-slope, -slope_low) } else { (slope, slope_low) };
-        Self { value, slope, low: T::pack(value_low, slope_low), inverse: T::nearest(inverse) }
+        Self { value, slope, low: f64::pack(value_low, slope_low), inverse }
     }
 }
 
 /// Computes entropy and information at `q`, the magnitude of their slopes, and that of their curvature's factor. `q` is
 /// exact: a centre has few bits.
-fn around(q: f64) -> (Both, Fixed, f64) {
+pub(super) fn around(q: f64) -> (Both, Fixed, f64) {
     let (m, e) = crate::rounded::ziv::normalised(q);
     let (entropy, information) = approximate::from_occupancy(m, e);
     // Series: |dV/dq| = |l| / ln 2, and dq/dc = ±1/2: the scale 127 of the constant, of which 128 are dropped.
@@ -129,11 +131,11 @@ fn inverse(q: f64) -> f64 {
 }
 
 /// Returns the nearest float, and the float nearest to what is left.
-pub(super) fn pair<T: Lane>(x: Fixed) -> (T, T) {
-    let nearest: T = round_integer(x.value, x.exponent, false);
+pub(super) fn pair(x: Fixed) -> (f64, f64) {
+    let nearest: f64 = round_integer(x.value, x.exponent, false);
     let (m, e) = nearest.parts();
     let units = u128::from(m) << (e - x.exponent);
     // Error, `v(c)` and `v'(c)`: exact at the scale of `x`, then rounded to a float, of which `pack` keeps the leading bits.
-    let rest: T = round_integer(x.value.abs_diff(units), x.exponent, false);
+    let rest: f64 = round_integer(x.value.abs_diff(units), x.exponent, false);
     (nearest, if x.value < units { -rest } else { rest })
 }

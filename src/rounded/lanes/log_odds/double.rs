@@ -6,8 +6,9 @@
 use super::far::CERTAIN;
 use super::table::{FIRST, LAST, SEVENTH, SIXTH, Table, centre};
 use super::{NEAR, Quantity};
-use crate::rounded::lanes::format::{BLOCK, Lane};
-use crate::rounded::lanes::kernel::{Block, Results, complements, fused, halves, mark};
+use crate::rounded::lanes::double::complements;
+use crate::rounded::lanes::format::{BLOCK, Lane, Split};
+use crate::rounded::lanes::kernel::{Block, Results, fused, halves, mark};
 
 /// Bounds the error before rounding, relative to `V`: theorem (log-odds), *Error in `f64`*.
 pub(super) const ERROR: f64 = 1.2e-19; // 2^-62.85

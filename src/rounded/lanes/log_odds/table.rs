@@ -6,7 +6,7 @@ use super::NEAR;
 use crate::rounded::beyond_float::{self, Fixed};
 use crate::rounded::constants::INV_LN2;
 use crate::rounded::fixed::mul_high;
-use crate::rounded::lanes::format::Lane;
+use crate::rounded::lanes::format::Split;
 use crate::rounded::lanes::table::pair;
 use crate::rounded::ziv::normalised;
 use crate::rounded::{approximate, fixed, shift_right};
@@ -145,7 +145,7 @@ fn weight(c: f64) -> (f64, Fixed) {
     let q = beyond_float::middle(approximate::occupancy(fixed::floor_117(m, e), true));
     let rest = (1 << 126) - shift_right(q.value, -126 - q.exponent);
     let weight = Fixed { value: mul_high(q.value << 1, rest << 1), exponent: q.exponent };
-    (pair::<f64>(q).0, weight)
+    (pair(q).0, weight)
 }
 
 /// Computes `w = q (1 - q)` and its first six derivatives in `l`, by `w' = -w t` and `t' = 2 w`, `t = 1 - 2q`.

@@ -6,7 +6,7 @@ use super::{Entropy, Information, NEAR, Occupancy, Quantity, double, far, single
 use crate::cell::{Cell, State, entropy_from_log_odds, information_from_log_odds, occupancy_from_log_odds};
 use crate::real::Real;
 use crate::rounded::beyond_float::{self, Fixed};
-use crate::rounded::lanes::format::{BLOCK, Lane};
+use crate::rounded::lanes::format::{BLOCK, Lane, Split};
 use crate::rounded::lanes::kernel::{Block, Results};
 use crate::rounded::lanes::sum::Parts;
 use crate::rounded::ziv::normalised;

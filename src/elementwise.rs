@@ -9,10 +9,6 @@ use crate::real::Real;
 #[cfg(feature = "std")]
 use crate::rounded::lanes::{self, BLOCK};
 
-/// The number of arguments below which single calls are as fast as a block, and need no tables.
-#[cfg(feature = "std")]
-const FEW: usize = 16;
-
 /// Stores the results of a kernel, and those of `function` where the kernel leaves them undecided.
 macro_rules! each {
     ($arguments:ident, $results:ident, $kernel:ident, $function:ident) => {
@@ -53,11 +49,10 @@ fn by_blocks<T: Real>(
             settle(block, places, function);
         }
     }
-    if last.len() < FEW {
+    let Some(padded) = lanes::padded(last) else {
         return one_by_one(last, last_places, function);
-    }
-    let (mut padded, mut found) = ([T::nan(); BLOCK], [T::nan(); BLOCK]);
-    padded[..last.len()].copy_from_slice(last);
+    };
+    let mut found = padded;
     kernel(&padded, &mut found);
     last_places.copy_from_slice(&found[..last.len()]);
     settle(last, last_places, function);

@@ -2,10 +2,7 @@
 //! and the cells that a block leaves undecided.
 
 use crate::real::Real;
-use crate::rounded::lanes::{BLOCK, Block, Results};
-
-/// The number of cells below which single cells are as fast as a block, and need no tables.
-const FEW: usize = 16;
+use crate::rounded::lanes::{self, BLOCK, Block, FEW, Results};
 
 /// Calls `take` with the sums of each block and the cells that the block leaves undecided. Returns the cells after the
 /// last block: fewer than [`FEW`].
@@ -25,12 +22,9 @@ pub(super) fn each<T: Real>(
         take(&sums, &mut sums.open(block));
         cells = rest;
     }
-    if cells.len() < FEW {
+    let Some(last) = lanes::padded(cells) else {
         return cells;
-    }
-    // The last block is padded with NaN, which no kernel counts: theorem (blocks), "Domain".
-    let mut last = [T::nan(); BLOCK];
-    last[..cells.len()].copy_from_slice(cells);
+    };
     let sums = sums(&last, &mut results);
     take(&sums, &mut sums.open(cells));
     &[]

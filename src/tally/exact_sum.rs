@@ -70,7 +70,8 @@ impl ExactSum {
     pub(crate) fn add_all<T: Real>(&mut self, numbers: &[T]) {
         // 2^12 integers of 53 bits, moved by 63 bits at most, fit in 128: carries wait until the end.
         for numbers in numbers.chunks(1 << 12) {
-            let mut sums = [0_u128; LIMBS - 2];
+            // 1 in `f32` is `2^23` times `2^-23`, whose place is 1051.
+            let mut sums = [0_u128; LIMBS - 1];
             for x in numbers {
                 let (m, e) = x.parts();
                 let place = (e - LOWEST) as usize;
@@ -224,18 +225,24 @@ mod tests {
     #[cfg(feature = "std")]
     #[test]
     fn all_at_once_are_one_by_one() {
+        fn check<T: Real>(numbers: &[T]) {
+            let (mut all, mut one_by_one) = (ExactSum::new(), ExactSum::new());
+            all.add_all(numbers);
+            for &x in numbers {
+                one_by_one.add(x);
+            }
+            assert_eq!(all, one_by_one);
+        }
         let most = |k: u64| f64::from_bits((1023 - k % 1023) << 52).next_down();
         let ends = [0.0, 1.0, f64::from_bits(1), f64::MIN_POSITIVE, f64::MIN_POSITIVE.next_down()];
         // At the last bit of a limb, as large as can be.
         let largest = f64::from_parts((1 << 53) - 1, LOWEST + 64 * 15 - 1);
         let largest = core::iter::repeat_n(largest, 4_500);
         let numbers: Vec<f64> = ends.into_iter().chain((0..9_000).map(most)).chain(largest).collect();
-        let (mut all, mut one_by_one) = (ExactSum::new(), ExactSum::new());
-        all.add_all(&numbers);
-        for &x in &numbers {
-            one_by_one.add(x);
-        }
-        assert_eq!(all, one_by_one);
+        check(&numbers);
+        let singles: Vec<f32> = numbers.iter().map(|&x| x as f32).collect();
+        check(&singles);
+        check(&[1.0_f32.next_down(); 4_500]);
     }
 
     /// `(c + 1) / (2 c)` units, `c = 2^63 + 1`: above the midpoint of 0 and one unit by less than any bit kept.

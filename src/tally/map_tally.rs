@@ -127,7 +127,7 @@ impl<T: Real> Tally<T> {
     /// number of values given.
     ///
     /// Equal, bit for bit, to the tally of the single cells (Eqs. 2 to 4; proved, [`sums`](crate::book::sums), "Blocks of
-    /// log-odds"), and many times as fast (feature `std`), as [`Tally::from_occupancies`] is. The first call makes a table
+    /// log-odds" and "Far log-odds"), and many times as fast (feature `std`), as [`Tally::from_occupancies`] is. The first call makes a table
     /// of 476 KB (`f64`; `f32` has none), in some three milliseconds.
     ///
     /// ```

@@ -64,8 +64,15 @@ fn log_odds_far_from_0_are_the_single_cells() {
             }
         }
     };
-    let shares: [fn(u32) -> bool; 6] =
-        [|_| true, |k| k % 2 == 0, |k| k % 97 == 0, |k| k == 4100, |k| k / 5000 == 1, |k| k % 40 < 20];
+    let shares: [fn(u32) -> bool; 7] = [
+        |_| true,
+        |k| k % 2 == 0,
+        |k| k % 16 == 7,
+        |k| k % 97 == 0,
+        |k| k == 4100,
+        |k| k / 5000 == 1,
+        |k| k % 40 < 20,
+    ];
     for is_far in shares {
         let cells: Vec<f64> = (0..12_500).map(|k| cell(k, is_far(k))).collect();
         let one_by_one: Tally<f64> = cells.iter().flat_map(|&l| Cell::from_log_odds(l)).collect();

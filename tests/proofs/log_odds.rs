@@ -1,5 +1,5 @@
-//! What the scripts `proofs/log_odds_*.gappa` and `proofs/far_*.gappa` take from elsewhere: constants, polynomials with their bounds, and what is certified of
-//! the rows of the tables.
+//! What the scripts `proofs/log_odds_*.gappa` and `proofs/far_*.gappa` take from elsewhere: constants, polynomials with their bounds,
+//! and what is certified of the rows of the tables.
 
 use crate::definition;
 use crate::lanes::{scripts_of_lanes, source_of};
@@ -47,7 +47,10 @@ fn the_constants_are_those_of_the_kernels() {
         has("@rnd = float<ieee_64, ne>;");
         let of_single = |constant_name: &str| constant("log_odds/single", constant_name);
         has(&format!("ERROR = rnd({});", of_single("ERROR")));
-        has(&format!("ROUND = {};", of_single("ROUND").strip_suffix(".0").expect("an integer")));
+        has(&format!(
+            "ROUND = {};",
+            constant("log_odds/mod", "ROUND").strip_suffix(".0").expect("an integer")
+        ));
         has("LOG2_E = 0x1.71547652b82fep0;");
         assert_eq!(core::f64::consts::LOG2_E.to_bits(), 0x3ff7_1547_652b_82fe);
         let mut coefficients = 0;
@@ -74,7 +77,7 @@ fn the_constants_are_those_of_the_far_kernel() {
     has("@rnd = float<ieee_64, ne>;");
     has(&format!("ERROR = rnd({});", of_far("ERROR")));
     has(&format!("LN_2_LOW = rnd({});", of_far("LN_2_LOW")));
-    has(&format!("ROUND = {};", of_far("ROUND").strip_suffix(".0").expect("an integer")));
+    has(&format!("ROUND = {};", constant("log_odds/mod", "ROUND").strip_suffix(".0").expect("an integer")));
     // The script quotes that they are 256 times the one, and the other over 256.
     has("STEPS = 0x1.71547652b82fep8;");
     has("STEP = 0x1.62e42fefa39efp-9;");

@@ -206,9 +206,9 @@ fn tally<E: Readable>(cells: &[E::Stored]) -> Tally<E::Float> {
     E::tally(cells)
 }
 
-/// The least number of cells that a thread takes at once: below, it takes longer to wake one up.
+/// The least number of cells that a thread takes at once, some 50 µs of floats: below, it takes longer to wake one up.
 #[cfg(feature = "rayon")]
-const PART: usize = 1 << 12;
+const PART: usize = 1 << 14;
 
 /// Why a mean information means nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

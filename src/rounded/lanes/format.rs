@@ -5,6 +5,8 @@ use core::ops::BitOr;
 
 /// Counts the cells that are summed up at once: so few that no sum of bits overflows.
 pub(crate) const BLOCK: usize = 256;
+/// The number of cells below which single cells are as fast as a block, and need no tables.
+pub(crate) const FEW: usize = 16;
 /// The significand bits by which a distance finds its centre: each binade has `2^CELL_BITS` centres.
 pub(super) const CELL_BITS: u32 = 7;
 /// The centres of one half of the table, a power of two so that an index is a mask.

@@ -18,13 +18,24 @@ mod single;
 mod sum;
 mod table;
 
-pub(crate) use format::BLOCK;
+pub(crate) use format::{BLOCK, FEW};
 pub(crate) use kernel::{Block, Results};
 
 use crate::real::{Floats, Pair, Real};
 use multiversion::multiversion;
 use multiversion::target::target_cfg_f;
 use std::sync::LazyLock;
+
+/// Returns a block of the cells that are left after whole ones, and NaN, which no kernel counts (theorem (blocks), *Domain*); `None`
+/// of so few that single cells are as fast.
+pub(crate) fn padded<T: Real>(cells: &[T]) -> Option<[T; BLOCK]> {
+    let is_worth_it = cells.len() >= FEW;
+    is_worth_it.then(|| {
+        let mut block = [T::nan(); BLOCK];
+        block[..cells.len()].copy_from_slice(cells);
+        block
+    })
+}
 
 /// Sums entropy and information over a block of occupancies, by the widest vector unit at hand.
 pub(crate) fn sums<T: Real>(cells: &[T; BLOCK], results: &mut Results<T>) -> Block {

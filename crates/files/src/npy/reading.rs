@@ -106,9 +106,6 @@ impl<R: Read, V: CellsVisitor> CellReader for Stream<'_, R, V> {
         let Size { width, height } = order.size;
         let (mut watch, mut cells, mut done) = (FloatWatch::new::<E>(), Vec::new(), 0);
         self.values.pieces(width * height, |piece: &[[u8; N]]| {
-            if cells.len() >= MANY {
-                cells.clear();
-            }
             // A loop that leaves early takes longer.
             let mut all_are_cells = true;
             cells.extend(piece.iter().map(|&bytes| {
@@ -124,6 +121,7 @@ impl<R: Read, V: CellsVisitor> CellReader for Stream<'_, R, V> {
             if cells.len() >= MANY || done == width * height {
                 watch.see::<E>(&cells);
                 self.visitor.visit::<E>(&cells);
+                cells.clear();
             }
             Ok(())
         })?;

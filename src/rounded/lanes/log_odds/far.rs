@@ -3,8 +3,8 @@
 //! There `V` is `e^-a` times 1, or times `(1 + a) / ln 2`, to more bits than are asked for. The bounds are those of theorem (far
 //! log-odds) in the chapter [`sums`](crate::book::sums), whose paragraphs the comments name.
 
-use super::Quantity;
 use super::table::LAST;
+use super::{Quantity, ROUND};
 use crate::rounded::constants::{EXP_TABLE, INV_LN2};
 use crate::rounded::fixed::mul_high;
 use crate::rounded::lanes::format::{BLOCK, Lane};
@@ -21,14 +21,12 @@ pub(super) const CERTAIN: f64 = 768.0;
 const PARTS: usize = 256;
 /// The steps in a factor of e.
 const STEPS: f64 = LOG2_E * 256.0;
-/// What rounding took from `ln 2`.
+/// The low part of `ln 2`: what its nearest float leaves.
 const LN_2_LOW: f64 = 2.3190468138462996e-17;
 /// A step, `ln 2 / 256`: a multiple of `2^-61`.
 const STEP: f64 = LN_2 / 256.0;
-/// What rounding took from it.
+/// The low part of a step.
 const STEP_LOW: f64 = LN_2_LOW / 256.0;
-/// `3/2 2^52`: added to a number below `2^51`, it leaves the nearest integer.
-const ROUND: f64 = 6755399441055744.0;
 
 /// Holds the powers of two at each step, times a unit: rounded, and what rounding took.
 pub(in super::super) struct Powers {

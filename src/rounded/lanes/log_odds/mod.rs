@@ -1,8 +1,8 @@
 //! Entropy, information and occupancy of many cells at once, from their log-odds.
 //!
 //! In both formats a value `V` is computed of which each result is either itself or `1 - V`: the information up to `|l| = 2`,
-//! the entropy from there on; or the smaller of the two probabilities. In `f64` it is from a table as far as that goes, and from a
-//! series beyond ([`far`]).
+//! the entropy from there on; or, in `f64`, the smaller of the two probabilities, where `f32` has the occupancy itself. In `f64` it
+//! is from a table as far as that goes, and from a series beyond ([`far`]).
 
 pub(super) mod double;
 pub(super) mod far;
@@ -14,6 +14,8 @@ pub(super) mod table;
 
 /// The magnitude of log-odds up to which `V` is the information, from which on it is the entropy.
 const NEAR: f64 = 2.0;
+/// `3/2 2^52`: added to a number below `2^51`, it leaves the nearest integer in the last bits.
+const ROUND: f64 = 6755399441055744.0;
 
 /// A result of one cell.
 pub(super) trait Quantity {

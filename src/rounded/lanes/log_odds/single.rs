@@ -6,7 +6,7 @@
 //! of theorem (log-odds) in the chapter [`sums`](crate::book::sums), whose paragraphs the comments name.
 
 use super::polynomials::{EVEN, INFORMATION, LOG, ODD};
-use super::{NEAR, Quantity};
+use super::{NEAR, Quantity, ROUND};
 use crate::rounded::lanes::format::{BLOCK, Lane};
 use crate::rounded::lanes::kernel::{Block, Results, fused, halves, mark};
 use core::f64::consts::LOG2_E;
@@ -14,10 +14,7 @@ use core::f64::consts::LOG2_E;
 /// Bounds the error before rounding, relative to each of entropy, information and occupancy.
 pub(super) const ERROR: f64 = 6e-12; // 2^-37.28
 /// The magnitude from which on results are those of infinity: entropies are below `2^-150`.
-const FAR: f64 = 128.0;
-
-/// `3/2 2^52`: added to a number below `2^51`, it leaves the nearest integer in the last bits.
-const ROUND: f64 = 6755399441055744.0;
+const CERTAIN: f64 = 128.0;
 
 /// Stores a result of each cell: the nearest float, NaN at NaN, and [`Lane::OPEN`] where the rounding is not decided.
 #[inline(always)]
@@ -62,15 +59,15 @@ pub(in super::super) fn sums<const FUSED: bool, const ENTROPY: bool>(
     Block::new::<f32, ENTROPY>(entropies, informations, marks)
 }
 
-/// Returns the log-odds, and the nearest of `-FAR` and [`FAR`] for whatever is beyond; NaN at NaN.
+/// Returns the log-odds, and the nearest of `-CERTAIN` and [`CERTAIN`] for whatever is beyond; NaN at NaN.
 #[inline(always)]
 fn inside(l: f32) -> f64 {
     let l = f64::from(l);
-    let l = if l < -FAR { -FAR } else { l };
-    if l > FAR { FAR } else { l }
+    let l = if l < -CERTAIN { -CERTAIN } else { l };
+    if l > CERTAIN { CERTAIN } else { l }
 }
 
-/// Computes a result at log-odds `l` up to [`FAR`] in magnitude.
+/// Computes a result at log-odds `l` up to [`CERTAIN`] in magnitude.
 #[inline(always)]
 fn unrounded<Q: Quantity, const FUSED: bool>(l: f64) -> f64 {
     if Q::OF_OCCUPANCY {
@@ -86,7 +83,7 @@ fn bounds(x: f64) -> (f32, f32) {
     ((x * (1.0 - ERROR)) as f32, (x * (1.0 + ERROR)) as f32)
 }
 
-/// Computes the occupancy at log-odds `l` up to [`FAR`] in magnitude.
+/// Computes the occupancy at log-odds `l` up to [`CERTAIN`] in magnitude.
 #[inline(always)]
 pub(super) fn occupancy<const FUSED: bool>(l: f64) -> f64 {
     let fused = fused::<f64, FUSED>;

@@ -21,6 +21,7 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 GAPPA = ["gappa", "-Eprecision=150", "-Eno-auto-dichotomy", "-Wno-null-denominator"]
 CERTIFICATES = {"lanes.sollya": 314, "log_odds_regions.sollya": 249}
+VALUES = {"near", "entropy", "information", "occupancy"}
 KERNELS = {"lanes_f32", "lanes_f64", "log_odds_f32", "log_odds_f64"}
 
 
@@ -38,10 +39,17 @@ def regions():
     return split
 
 
+def is_wanted(line, value):
+    """Whether a line is of this value: of all, or of those that it names."""
+    named = line.split(" # of ")[1].split(", ") if "/\\ # of " in line else [value]
+    if not set(named) <= VALUES:
+        sys.exit(f"proofs/regions.py: no such value: {line}")
+    return value in named
+
+
 def instance(script, kernel, value, ranges):
     """The script for a region."""
-    script = "\n".join(
-        line for line in script.split("\n") if " /\\ # of " not in line or value in line.split(" # of ")[1].split(", "))
+    script = "\n".join(line for line in script.split("\n") if is_wanted(line, value))
     if value == "information" and kernel.startswith("lanes"):
         script = re.sub(r" /\\\n    complement \+ (?:lower|upper)[^/\n]*[^/\n ]", "", script)
     return script.replace("REGION", ranges).replace("VALUE", value)

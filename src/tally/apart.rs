@@ -19,7 +19,7 @@ pub(super) fn each<T: Real>(cells: &[T], mut take: impl FnMut(&[T], &[T])) {
     let mut sorted = Sorted { near: Vec::new(), far: Vec::new(), near_count: 0, far_count: 0 };
     let mut first = 0;
     for (number, stretch) in cells.chunks(STRETCH).enumerate() {
-        // Each time at another place, since cells of a map's column, or of a channel, are as far apart as each other.
+        // At another place of each 16, since far cells may recur after a number of cells that divides 16.
         let looked_at = stretch.chunks(EVERY).enumerate().map(|(k, cells)| cells[5 * k % cells.len()]);
         let seen = looked_at.filter(|&l| lanes::is_far(l)).count();
         if seen <= FEW {

@@ -70,7 +70,7 @@ impl ExactSum {
     pub(crate) fn add_all<T: Real>(&mut self, numbers: &[T]) {
         // 2^12 integers of 53 bits, moved by 63 bits at most, fit in 128: carries wait until the end.
         for numbers in numbers.chunks(1 << 12) {
-            // 1 in `f32` is `2^23` times `2^-23`, whose place is 1051.
+            // The last word is for 1 in `f32`, `2^23` times `2^-23`: its place is 1051.
             let mut sums = [0_u128; LIMBS - 1];
             for x in numbers {
                 let (m, e) = x.parts();

@@ -25,6 +25,7 @@ use crate::real::{Floats, Pair, Real};
 use multiversion::multiversion;
 use multiversion::target::target_cfg_f;
 use std::sync::LazyLock;
+use table::Table;
 
 /// Returns a block of the cells that are left after whole ones, and NaN, which no kernel counts (theorem (blocks), *Domain*); `None`
 /// of so few that single cells are as fast.
@@ -187,16 +188,15 @@ by_target!(
     }
 );
 
+/// Holds the table of occupancies, of either format, made when first needed.
+static TABLE: LazyLock<Table> = LazyLock::new(Table::new);
+
 /// Defines the kernels of occupancies for a format.
 macro_rules! of_occupancies {
-    ($name:ident, $float:ident, $format:ident, $table:path) => {
+    ($name:ident, $float:ident, $format:ident) => {
         mod $name {
             use super::$format::{results, sums as block};
-            use super::{BLOCK, Block, LazyLock, Results, multiversion, target_cfg_f};
-            use $table;
-
-            /// Holds the table of the format, made when first needed.
-            static TABLE: LazyLock<Table> = LazyLock::new(Table::new);
+            use super::{BLOCK, Block, Results, TABLE, Table, multiversion, target_cfg_f};
 
             by_target!(
                 fn both(table: &Table, cells: &[$float; BLOCK], results: &mut Results<$float>) -> Block {
@@ -238,8 +238,8 @@ macro_rules! of_occupancies {
     };
 }
 
-of_occupancies!(single_occupancies, f32, single, super::single::Table);
-of_occupancies!(double_occupancies, f64, double, super::table::Table);
+of_occupancies!(single_occupancies, f32, single);
+of_occupancies!(double_occupancies, f64, double);
 
 /// The kernels of log-odds in `f32`.
 mod single_log_odds {

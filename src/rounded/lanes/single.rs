@@ -6,50 +6,12 @@
 
 use super::format::{BLOCK, HALF, LEAST, Lane};
 use super::kernel::{Block, Results, distance, fused, halves, mark};
-use super::table::{around, pair, row, two_thirds};
+use super::table::{Rows, Table, row};
 use crate::real::Real;
-use alloc::boxed::Box;
-use alloc::vec::Vec;
 use core::f64::consts::LN_2;
-use core::iter::repeat_n;
 
 /// Bounds the error before rounding, relative to `V`: theorem (blocks), *Error*.
 pub(super) const ERROR: f64 = 8e-12; // 2^-36.86
-
-/// Holds value and slope at the centres, in three thirds as those of `f64`: of the entropy at `q = c / 2`, of the information at the
-/// distance `c` from unknown, and of the information at `q = c / 2`.
-pub(crate) struct Table {
-    value: Box<[f64; 3 * HALF]>,
-    slope: Box<[f64; 3 * HALF]>,
-}
-
-/// Refers to the two thirds of a [`Table`] that a kernel needs: values and slopes.
-pub(super) type Rows<'a> = (&'a [f64; 2 * HALF], &'a [f64; 2 * HALF]);
-
-impl Table {
-    /// Computes the table.
-    pub(super) fn new() -> Self {
-        let mut rows: Vec<[f64; 2]> = repeat_n([0.0; 2], 3 * HALF).collect();
-        // Error, `v(c)` and `v'(c)`: the nearest floats.
-        let row = |value, slope| [pair(value).0, pair(slope).0];
-        for (k, c) in (0..HALF).map_while(f32::centre_of).map(f64::from).enumerate() {
-            let ((entropy, information), slope, _) = around(c / 2.0);
-            rows[k] = row(entropy, slope);
-            let [value, steepness] = row(information, slope);
-            rows[2 * HALF + k] = [value, -steepness];
-            let ((_, information), slope, _) = around((1.0 - c) / 2.0);
-            rows[HALF + k] = row(information, slope);
-        }
-        let column = |of: usize| Box::new(core::array::from_fn(|k| rows[k][of]));
-        Self { value: column(0), slope: column(1) }
-    }
-
-    /// Returns the rows for a kernel with entropies or without.
-    #[inline(always)]
-    pub(super) fn rows<const ENTROPY: bool>(&self) -> Rows<'_> {
-        (two_thirds::<_, ENTROPY>(&self.value), two_thirds::<_, ENTROPY>(&self.slope))
-    }
-}
 
 /// Holds what a block's cells take from `f32` to `f64`.
 struct Parts {
@@ -80,13 +42,10 @@ impl Parts {
 
     /// Returns `V` of each cell, and the number of its row.
     #[inline(always)]
-    fn values<'a, const FUSED: bool>(
-        &'a self,
-        (values, slopes): Rows<'a>,
-    ) -> impl Iterator<Item = (f64, usize)> + 'a {
+    fn values<'a, const FUSED: bool>(&'a self, rows: Rows<'a>) -> impl Iterator<Item = (f64, usize)> + 'a {
         self.row.iter().zip(&self.h).zip(&self.rest).map(move |((&row, &h), &rest)| {
             let row = row as usize % (2 * HALF);
-            (value::<FUSED>(values[row], slopes[row], h, rest), row)
+            (value::<FUSED>(rows.value[row], rows.slope[row], h, rest), row)
         })
     }
 }
@@ -217,7 +176,7 @@ fn bounds(v: f64) -> (f32, f32) {
 #[inline(always)]
 fn complements<const FUSED: bool>(v: f64) -> (f32, f32) {
     let complement = 1.0 - v;
-    // Rounding test of `1 - V`: `2^-52` for the roundings of `1 - V` and of either side, each by `2^-54`.
+    // Rounding test of `1 - V`: `2^-52` for the roundings of `1 - V` and of either side, by `2^-54` below 1 and `2^-53` above.
     let margin = fused::<f64, FUSED>(v, ERROR, f64::EPSILON);
     ((complement - margin) as f32, (complement + margin) as f32)
 }

@@ -1,5 +1,5 @@
-//! The table of `f64`: value and slope of entropy and information at the centres, to twice the precision; and what that of `f32` is
-//! computed from.
+//! The table of occupancies: value and slope of entropy and information at the centres, to twice the precision of `f64`. The kernels
+//! of `f32` take the leading float of each.
 
 use super::format::{HALF, Lane, Split};
 use crate::real::Real;
@@ -72,7 +72,7 @@ pub(super) fn row<const ENTROPY: bool>(number: u32, near: bool) -> usize {
 
 /// Returns the first two thirds, or the last two.
 #[inline(always)]
-pub(super) fn two_thirds<X, const FIRST: bool>(all: &[X; 3 * HALF]) -> &[X; 2 * HALF] {
+fn two_thirds<X, const FIRST: bool>(all: &[X; 3 * HALF]) -> &[X; 2 * HALF] {
     let two = if FIRST { all.first_chunk() } else { all.last_chunk() };
     two.expect("three thirds have two")
 }
@@ -110,7 +110,7 @@ impl Row {
 
 /// Computes entropy and information at `q`, the magnitude of their slopes, and that of their curvature's factor. `q` is
 /// exact: a centre has few bits.
-pub(super) fn around(q: f64) -> (Both, Fixed, f64) {
+fn around(q: f64) -> (Both, Fixed, f64) {
     let (m, e) = crate::rounded::ziv::normalised(q);
     let (entropy, information) = approximate::from_occupancy(m, e);
     // Series: |dV/dq| = |l| / ln 2, and dq/dc = ±1/2: the scale 127 of the constant, of which 128 are dropped.

@@ -1,10 +1,10 @@
 //! The kernel against the enclosures, and its blocks against cells one by one.
 
 use super::format::{BLOCK, HALF, LEAST, Lane, Split};
-use super::kernel::{Block, Results};
+use super::kernel::{Block, Results, distance};
 use super::sum::Parts;
-use super::table::row;
-use super::{double, single, table};
+use super::table::{Rows, Table, row};
+use super::{double, single};
 use crate::cell::{Cell, State};
 use crate::real::Real;
 use crate::rounded::beyond_float::{self, Fixed};
@@ -17,50 +17,39 @@ use proptest::prelude::*;
 
 /// The kernels of a format.
 trait Kernels: Lane {
-    type Table: Sync;
     const ERROR: f64;
     /// The coefficients of the series.
     const TERMS: usize;
-    /// What a row has beside the centre.
-    type Row: Into<Vec<f64>>;
 
-    fn table() -> Self::Table;
-    fn row(table: &Self::Table, entropy: bool, number: u32, near: bool) -> Self::Row;
     /// `V` in two parts.
-    fn value<const FUSED: bool, const ENTROPY: bool>(table: &Self::Table, x: Self, near: bool) -> [f64; 2];
+    fn value<const FUSED: bool, const ENTROPY: bool>(table: &Table, x: Self, near: bool) -> [f64; 2];
     fn series<const FUSED: bool>(b: Self, y: Self) -> Self;
     fn results<const FUSED: bool, const ENTROPY: bool>(
-        table: &Self::Table,
+        table: &Table,
         cells: &[Self; BLOCK],
         results: &mut [Self; BLOCK],
     );
     fn sums<const FUSED: bool, const ENTROPY: bool>(
-        table: &Self::Table,
+        table: &Table,
         cells: &[Self; BLOCK],
         results: &mut Results<Self>,
     ) -> Block;
 }
 
 macro_rules! impl_kernels {
-    ($float:ident, $kernel:ident, $table:path, $terms:literal, $row:ty, { $($of_row:item $value:item)* }) => {
+    ($float:ident, $kernel:ident, $terms:literal, $value:item) => {
         impl Kernels for $float {
-            type Table = $table;
             const ERROR: f64 = $kernel::ERROR;
             const TERMS: usize = $terms;
-            type Row = $row;
 
-            fn table() -> $table {
-                <$table>::new()
-            }
-
-            $($of_row $value)*
+            $value
 
             fn series<const FUSED: bool>(b: Self, y: Self) -> Self {
                 $kernel::series::<FUSED>(b, y)
             }
 
             fn results<const FUSED: bool, const ENTROPY: bool>(
-                table: &$table,
+                table: &Table,
                 cells: &[Self; BLOCK],
                 results: &mut [Self; BLOCK],
             ) {
@@ -68,7 +57,7 @@ macro_rules! impl_kernels {
             }
 
             fn sums<const FUSED: bool, const ENTROPY: bool>(
-                table: &$table,
+                table: &Table,
                 cells: &[Self; BLOCK],
                 results: &mut Results<Self>,
             ) -> Block {
@@ -78,38 +67,25 @@ macro_rules! impl_kernels {
     };
 }
 
-impl_kernels!(f32, single, single::Table, 3, [f64; 2], {
-    fn row(table: &single::Table, entropy: bool, number: u32, near: bool) -> [f64; 2] {
-        let ((values, slopes), row) = if entropy {
-            (table.rows::<true>(), row::<true>(number, near))
-        } else {
-            (table.rows::<false>(), row::<false>(number, near))
-        };
-        [values[row], slopes[row]]
-    }
-
-    fn value<const FUSED: bool, const ENTROPY: bool>(table: &single::Table, x: f32, near: bool) -> [f64; 2] {
+impl_kernels!(
+    f32,
+    single,
+    3,
+    fn value<const FUSED: bool, const ENTROPY: bool>(table: &Table, x: f32, near: bool) -> [f64; 2] {
         let (c, number) = f32::centre(x);
-        let [value, slope] = Self::row(table, ENTROPY, number, near);
+        let (rows, row) = (table.rows::<ENTROPY>(), row::<ENTROPY>(number, near));
         let (h, rest) = single::rest::<FUSED, ENTROPY>(x, c, near);
-        [single::value::<FUSED>(value, slope, h, rest), 0.0]
+        [single::value::<FUSED>(rows.value[row], rows.slope[row], h, rest), 0.0]
     }
-});
-impl_kernels!(f64, double, table::Table, 6, [f64; 5], {
-    fn row(table: &table::Table, entropy: bool, number: u32, near: bool) -> [f64; 5] {
-        let (rows, row) = if entropy {
-            (table.rows::<true>(), row::<true>(number, near))
-        } else {
-            (table.rows::<false>(), row::<false>(number, near))
-        };
-        let (value_low, slope_low) = f64::unpack(rows.low[row]);
-        [rows.value[row], rows.slope[row], value_low, slope_low, rows.inverse[row]]
-    }
-
-    fn value<const FUSED: bool, const ENTROPY: bool>(table: &table::Table, x: f64, near: bool) -> [f64; 2] {
+);
+impl_kernels!(
+    f64,
+    double,
+    6,
+    fn value<const FUSED: bool, const ENTROPY: bool>(table: &Table, x: f64, near: bool) -> [f64; 2] {
         double::value::<FUSED, ENTROPY>(&table.rows::<ENTROPY>(), x, near).into()
     }
-});
+);
 
 /// In units of `2^unit`.
 fn units(x: Fixed, unit: i32) -> i128 {
@@ -126,7 +102,7 @@ fn units_of<T: Lane>(x: T, unit: i32) -> i128 {
 }
 
 /// The error of the kernel's value at `p`, relative to the value; `None` beyond the table.
-fn error<T: Kernels, const FUSED: bool, const ENTROPY: bool>(table: &T::Table, p: T) -> Option<f64> {
+fn error<T: Kernels, const FUSED: bool, const ENTROPY: bool>(table: &Table, p: T) -> Option<f64> {
     let q = p.min(T::one() - p);
     let near = q + q > T::HALF;
     let x = if near { T::one() - (q + q) } else { q + q };
@@ -143,22 +119,26 @@ fn error<T: Kernels, const FUSED: bool, const ENTROPY: bool>(table: &T::Table, p
     Some((parts[0] + parts[1] - exact).abs() as f64 / exact as f64)
 }
 
-/// The rows of the table that have a centre: the value's name, the centre, value, slope and, in `f64`, their rests and the inverse.
-fn rows<T: Kernels>(table: &T::Table) -> impl Iterator<Item = (&'static str, Vec<f64>)> {
-    (0..HALF).map_while(|number| Some((number as u32, T::centre_of(number)?))).flat_map(move |(number, c)| {
-        [("near", true, true), ("entropy", true, false), ("information", false, false)].map(
-            |(name, entropy, near)| {
-                let mut row = alloc::vec![c.widen()];
-                row.extend(T::row(table, entropy, number, near).into());
-                (name, row)
-            },
-        )
-    })
+/// The rows of the table that have a centre: the value's name, the centre, value, slope, their rests and the inverse.
+fn rows(table: &Table) -> impl Iterator<Item = (&'static str, [f64; 6])> {
+    fn row_of(rows: &Rows<'_>, row: usize, c: f64) -> [f64; 6] {
+        let (value_low, slope_low) = f64::unpack(rows.low[row]);
+        [c, rows.value[row], rows.slope[row], value_low, slope_low, rows.inverse[row]]
+    }
+    (0..HALF).map_while(|number| Some((number as u32, f64::centre_of(number)?))).flat_map(
+        move |(number, c)| {
+            [
+                ("near", row_of(&table.rows::<true>(), row::<true>(number, true), c)),
+                ("entropy", row_of(&table.rows::<true>(), row::<true>(number, false), c)),
+                ("information", row_of(&table.rows::<false>(), row::<false>(number, false), c)),
+            ]
+        },
+    )
 }
 
-/// A digest (64-bit FNV-1a) of the words of a table.
-fn digest<T: Kernels>() -> u64 {
-    rows::<T>(&T::table())
+/// A digest (64-bit FNV-1a) of the words of the table.
+fn digest() -> u64 {
+    rows(&Table::new())
         .flat_map(|(_, row)| row)
         .flat_map(|x| x.to_bits().to_le_bytes())
         .fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
@@ -166,27 +146,33 @@ fn digest<T: Kernels>() -> u64 {
 
 /// The rows that `proofs/rows.sollya` has certified.
 #[test]
-fn the_tables_are_the_certified_ones() {
-    assert_eq!([digest::<f32>(), digest::<f64>()], [0x6502_9ca6_b669_e016, 0xe139_9cde_96b7_f1bb]);
+fn the_table_is_the_certified_one() {
+    assert_eq!(digest(), 0xe139_9cde_96b7_f1bb);
+}
+
+/// Both formats have the same centres, under the same numbers.
+#[test]
+fn the_formats_share_the_table() {
+    let centres = (0..=HALF).map_while(f64::centre_of);
+    assert!(centres.eq((0..=HALF).map_while(f32::centre_of).map(f64::from)));
+    for x in ends::<f32>().map(|p| distance(p).0).filter(|&x| x >= LEAST) {
+        let ((c, number), (centre, same)) = (f32::centre(x), f64::centre(x.into()));
+        assert_eq!((f64::from(c), number), (centre, same), "{x}");
+    }
 }
 
 /// Prints the rows for `proofs/rows.sollya`.
 #[test]
 #[ignore = "output for proofs/check.sh"]
 fn rows_for_the_proof() {
-    fn print<T: Kernels>(procedure: &str) {
-        let dyadic = |x: f64| {
-            let (m, e) = x.parts();
-            std::format!("{}{m} * 2^({e})", if x < 0.0 { "-" } else { "" })
-        };
-        for (name, row) in rows::<T>(&T::table()) {
-            let numbers: Vec<_> = row.into_iter().map(dyadic).collect();
-            std::println!("{procedure}(\"{name}\", {});", numbers.join(", "));
-        }
+    let dyadic = |x: f64| {
+        let (m, e) = x.parts();
+        std::format!("{}{m} * 2^({e})", if x < 0.0 { "-" } else { "" })
+    };
+    std::println!("// {:#x?}", digest());
+    for (name, row) in rows(&Table::new()) {
+        std::println!("row(\"{name}\", {});", row.map(dyadic).join(", "));
     }
-    std::println!("// {:#x?}", [digest::<f32>(), digest::<f64>()]);
-    print::<f32>("row_single");
-    print::<f64>("row");
 }
 
 /// Both ends of each cell of the table, where the centre is farthest, in both halves of it.
@@ -203,7 +189,7 @@ fn ends<T: Lane>() -> impl Iterator<Item = T> {
 
 /// The largest error at the ends of the cells, relative to the bound.
 fn largest<T: Kernels>() -> f64 {
-    let table = &T::table();
+    let table = &Table::new();
     let errors = ends::<T>().filter(|&p| p < T::one()).flat_map(|p| {
         [
             error::<T, true, true>(table, p),
@@ -253,7 +239,7 @@ fn errors_are_within_the_bounds() {
 
 /// What a block must have found, and what must be stored, from its cells one by one.
 fn check<T: Kernels, const FUSED: bool, const ENTROPY: bool>(
-    table: &T::Table,
+    table: &Table,
     cells: &[T; BLOCK],
     singles: &[Option<Cell<T>>; BLOCK],
 ) -> usize {
@@ -307,7 +293,7 @@ fn check<T: Kernels, const FUSED: bool, const ENTROPY: bool>(
 }
 
 /// The fewest cells that a kernel decides.
-fn check_all<T: Kernels>(table: &T::Table, cells: &[T; BLOCK]) -> usize {
+fn check_all<T: Kernels>(table: &Table, cells: &[T; BLOCK]) -> usize {
     let singles = singles(cells);
     let decided = [
         check::<T, true, true>(table, cells, &singles),
@@ -329,7 +315,7 @@ fn filled<T: Lane>(cells: &[T]) -> [T; BLOCK] {
 }
 
 fn special<T: Kernels>() {
-    let table = &T::table();
+    let table = &Table::new();
     let (one, least) = (T::one(), T::from_parts(1, T::MIN_EXPONENT));
     let ulp = T::epsilon();
     let edge = T::nearest(f64::from(LEAST) / 2.0);
@@ -356,15 +342,15 @@ fn special_cells() {
 /// Random cells towards 0, towards 1/2 and towards 1.
 #[test]
 fn blocks_are_sums_of_cells() {
-    let (double, single) = (f64::table(), f32::table());
+    let table = Table::new();
     proptest!(ProptestConfig::with_cases(32), |(cells in prop::collection::vec(0.0_f64..1.0, BLOCK), scale in 0_i32..40)| {
         let power = f64::from_parts(1, -scale);
         let towards: [fn(f64) -> f64; 3] = [|d| d, |d| 0.5 + d / 2.0, |d| 1.0 - d];
         for place in towards {
             let cells: Vec<f64> = cells.iter().map(|d| place(d * power)).collect();
-            let decided = check_all(&double, &filled(&cells));
+            let decided = check_all(&table, &filled(&cells));
             let singles: Vec<f32> = cells.iter().map(|&p| p as f32).collect();
-            let decided_singles = check_all(&single, &filled(&singles));
+            let decided_singles = check_all(&table, &filled(&singles));
             // Few of a hundred fail the rounding test (docs/sums.md).
             prop_assert!(scale > 5 || decided > BLOCK / 2 && decided_singles > BLOCK / 2);
         }
@@ -376,7 +362,7 @@ fn blocks_are_sums_of_cells() {
 #[test]
 #[ignore = "minutes in release mode: proofs/exhaust.sh"]
 fn every_single_by_every_kernel() {
-    let table = &f32::table();
+    let table = &Table::new();
     let (first, last) = (f32::from_parts(1, -34).to_bits(), 1.0_f32.to_bits());
     let blocks = (last - first).div_ceil(BLOCK as u32);
     let results = AtomicU64::new(0);

@@ -242,7 +242,7 @@ mod tests {
         check(&numbers);
         let singles: Vec<f32> = numbers.iter().map(|&x| x as f32).collect();
         check(&singles);
-        check(&[1.0_f32.next_down(); 4_500]);
+        check(&[1.0_f32.next_down()].repeat(4_500));
     }
 
     /// `(c + 1) / (2 c)` units, `c = 2^63 + 1`: above the midpoint of 0 and one unit by less than any bit kept.

@@ -89,7 +89,7 @@ impl<T: Real> Tally<T> {
     ///
     /// Equal, bit for bit, to the tally of the single cells (Eqs. 2 to 4; proved,
     /// [`sums`](crate::book::sums), "Many cells at once"), and many times as fast (feature `std`): blocks
-    /// of cells are summed up by the processor's vector unit. The first call makes a table of 384 KB (`f64`),
+    /// of cells are summed up by the processor's vector unit. The first call makes a table of 384 KB,
     /// in two milliseconds.
     ///
     /// Those are values outside `[0, 1]`, and NaN; [`Grid::new`](crate::map::Grid::new) refuses them. Percentages as floats

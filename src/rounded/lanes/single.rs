@@ -42,10 +42,11 @@ impl Parts {
 
     /// Returns `V` of each cell, and the number of its row.
     #[inline(always)]
-    fn values<'a, const FUSED: bool>(&'a self, rows: Rows<'a>) -> impl Iterator<Item = (f64, usize)> + 'a {
+    fn values<'a, const FUSED: bool>(&'a self, rows: &Rows<'a>) -> impl Iterator<Item = (f64, usize)> + 'a {
+        let (values, slopes) = (rows.value, rows.slope);
         self.row.iter().zip(&self.h).zip(&self.rest).map(move |((&row, &h), &rest)| {
             let row = row as usize % (2 * HALF);
-            (value::<FUSED>(rows.value[row], rows.slope[row], h, rest), row)
+            (value::<FUSED>(values[row], slopes[row], h, rest), row)
         })
     }
 }
@@ -59,7 +60,7 @@ pub(super) fn results<const FUSED: bool, const ENTROPY: bool>(
     results: &mut [f32; BLOCK],
 ) {
     let parts = Parts::of::<FUSED, ENTROPY>(cells);
-    for ((v, row), result) in parts.values::<FUSED>(table.rows::<ENTROPY>()).zip(&mut *results) {
+    for ((v, row), result) in parts.values::<FUSED>(&table.rows::<ENTROPY>()).zip(&mut *results) {
         // The entropy is `1 - V` near 1/2, where `V` is the information.
         let v = if ENTROPY & (row >= HALF) { 1.0 - v } else { v };
         let (lower, upper) = bounds(v);
@@ -85,7 +86,7 @@ pub(super) fn sums<const FUSED: bool, const ENTROPY: bool>(
     let parts = Parts::of::<FUSED, ENTROPY>(cells);
     let (entropies, informations) = halves(places);
     // `V` and, with entropies, `1 - V`, or open both.
-    let numbers = parts.values::<FUSED>(table.rows::<ENTROPY>());
+    let numbers = parts.values::<FUSED>(&table.rows::<ENTROPY>());
     for ((v, _), (entropy, information)) in numbers.zip(entropies.iter_mut().zip(&mut *informations)) {
         let (value, value_above) = bounds(v);
         let mut done = value == value_above;

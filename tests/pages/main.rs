@@ -40,6 +40,8 @@ fn sources(folder: &str) -> Vec<PathBuf> {
     let mut paths: Vec<_> = entries.map(|entry| Path::new(folder).join(entry.unwrap().file_name())).collect();
     paths.sort();
     let within = |path: PathBuf| match path.extension() {
+        // What was built in a workspace of its own.
+        None if path.ends_with("target") => vec![],
         None if Path::new(ROOT).join(&path).is_dir() => sources(path.to_str().unwrap()),
         Some(extension) if extension == "rs" => vec![path],
         _ => vec![],

@@ -339,9 +339,17 @@ fn a_sum_is_not_taken_below_zero() {
     assert_eq!(sum, expected);
     sum.remove_many(1.0_f64, (1 << 60) - 1).unwrap();
     assert_eq!(sum.value::<f64>(), 1.0);
-    assert_eq!(
-        sum.remove_many(1.0_f64, 1).unwrap_err().to_string(),
-        "amount to remove from a sum is 1, allowed is at most the sum"
+    let refused = |mut sum: ExactSum, x: f64, count| sum.remove_many(x, count).unwrap_err().to_string();
+    let [more, once] = [(0.75, 4), (1.0, 1)].map(|(x, count)| refused(sum.clone(), x, count));
+    assert_eq!(more, "amount to remove from a sum is 3, allowed is at most the sum");
+    assert_eq!(once, "amount to remove from a sum is 1, allowed is at most the sum");
+    // No such number was added, though the sum has as much.
+    sum.add_many(1.0_f64, 9);
+    assert!(
+        [1.5, -0.5]
+            .map(|x| refused(sum.clone(), x, 2))
+            .iter()
+            .all(|text| text.ends_with("allowed is 0 to 1"))
     );
     // As much entropy is not there, though as many cells are.
     let mut tally = tally(&[0.03125, 0.96875]);

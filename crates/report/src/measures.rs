@@ -362,7 +362,7 @@ mod tests {
             let visited = Contents::Visited { width: cells.len(), height: 1 };
             assert_eq!(Measures::of_contents(&visited, &sums), Measures::of_grid(&grid::<E>(cells)));
         }
-        let cells: Vec<f64> = (0..30_011).map(|k| f64::from(k * 7 % 30_012) / 30_011.0).collect();
+        let cells: Vec<f64> = (0..90_011).map(|k| f64::from(k * 7 % 90_012) / 90_011.0).collect();
         check::<Probability<f64>>(&cells);
         let singles: Vec<f32> = cells.iter().map(|&p| p as f32 - 0.5).collect();
         check::<LogOdds<f32>>(&singles);

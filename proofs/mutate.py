@@ -60,10 +60,9 @@ def kernel(file, quotation, in_steps=(), fused=()):
     return edits
 
 
-def complements(quotation, definition):
-    """The same of a line of `complements` in `f64`, which the kernels of log-odds run, too."""
-    return kernel(DOUBLE, quotation, definition, definition) + [
-        (script, *edit) for script in SCRIPTS[LOG_ODDS_DOUBLE] for edit in (quotation, definition)]
+def shared(quotation, in_steps=(), fused=()):
+    """The same of a line of `leading` or `complements` in `f64`, which the kernels of log-odds run, too."""
+    return kernel(DOUBLE, quotation, in_steps, fused) + kernel(LOG_ODDS_DOUBLE, quotation, in_steps, fused)[1:]
 
 
 # (what is changed, what must fail, edits as (file, old, new)).
@@ -226,12 +225,12 @@ MUTATIONS = [
     ("lanes: y by the slope, in both", "lanes_f64_fused.gappa",
      kernel(DOUBLE, ("let y = h * inverse;", "let y = h * slope;"), *[("y = rnd(h * inverse);", "y = rnd(h * slope);")] * 2)),
     ("lanes: the rest of the slope's product not negative, in both", "lanes_f64_fused.gappa",
-     kernel(DOUBLE, ("f64::fused(slope, h, -first)", "f64::fused(slope, h, first)"),
+     shared(("f64::fused(slope, h, -first)", "f64::fused(slope, h, first)"),
             fused=("rnd(slope * h - first);", "rnd(slope * h + first);"))),
     ("lanes: the slope not split, in both", "lanes_f64.gappa",
-     kernel(DOUBLE, ("(slope.head() * h, ", "(slope * h, "), ("first = rnd(cut(slope) * h);", "first = rnd(slope * h);"))),
+     shared(("(slope.head() * h, ", "(slope * h, "), ("first = rnd(cut(slope) * h);", "first = rnd(slope * h);"))),
     ("lanes: what the first sum loses, of slope's rest, in both", "lanes_f64.gappa",
-     kernel(DOUBLE, ("let lost = (value - head) + first;", "let lost = (value - head) + second;"),
+     shared(("let lost = (value - head) + first;", "let lost = (value - head) + second;"),
             *[("lost = rnd(rnd(value - head) + first);", "lost = rnd(rnd(value - head) + second);")] * 2)),
     ("lanes: the value's rest left out, in both", "lanes_f64_fused.gappa",
      kernel(DOUBLE, ("products + (lost + value_low)", "products + (lost + second)"),
@@ -241,11 +240,11 @@ MUTATIONS = [
             ("below = rnd(rnd(head * -ERROR) + tail);", "below = rnd(rnd(head * ERROR) + tail);"),
             ("below = rnd(head * -ERROR + tail);", "below = rnd(head * ERROR + tail);"))),
     ("lanes: 1 - V from above on both sides, in both", "lanes_f64_fused.gappa",
-     complements(("let lower = rest - (above + tiny);", "let lower = rest - (below + tiny);"),
-                 ("lower = rnd(rest - rnd(above + tiny));", "lower = rnd(rest - rnd(below + tiny));"))),
+     shared(("let lower = rest - (above + tiny);", "let lower = rest - (below + tiny);"),
+            *[("lower = rnd(rest - rnd(above + tiny));", "lower = rnd(rest - rnd(below + tiny));")] * 2)),
     ("lanes: what 1 - V loses, without V, in both", "lanes_f64.gappa",
-     complements(("let rest = (1.0 - complement) - head;", "let rest = 1.0 - complement;"),
-                 ("rest = rnd(rnd(1 - complement) - head);", "rest = rnd(1 - complement);"))),
+     shared(("let rest = (1.0 - complement) - head;", "let rest = 1.0 - complement;"),
+            *[("rest = rnd(rnd(1 - complement) - head);", "rest = rnd(1 - complement);")] * 2)),
     ("lanes in f32: ERROR 4e-12, in both", "lanes_f32.gappa",
      kernel(SINGLE, ("f64 = 8e-12", "f64 = 4e-12"), *[("wide(8e-12)", "wide(4e-12)")] * 2)),
     ("lanes in f32: b of the other sign near 1/2, in both", "lanes_f32_fused.gappa",
@@ -292,8 +291,6 @@ MUTATIONS = [
     ("lanes of log-odds: a_6 h for a_7 h, in both", "log_odds_f64.gappa",
      kernel(LOG_ODDS_DOUBLE, ("fused(h, a7, a6)", "fused(h, a6, a6)"), ("rnd(rnd(h * a7) + a6)", "rnd(rnd(h * a6) + a6)"),
                  ("rnd(h * a7 + a6)", "rnd(h * a6 + a6)"))),
-    ("lanes of log-odds: the slope not split, in both", "log_odds_f64.gappa",
-     kernel(LOG_ODDS_DOUBLE, ("(slope.head() * h, ", "(slope * h, "), ("first = rnd(cut(slope) * h);", "first = rnd(slope * h);"))),
     ("lanes of log-odds: the numerator of 2^r as its denominator, in both", "log_odds_f32_fused.gappa",
      kernel(LOG_ODDS_SINGLE, ("let over = fused(r, odd, even);", "let over = fused(-r, odd, even);"),
                  ("over = rnd(rnd(r * odd) + even);", "over = rnd(rnd(-r * odd) + even);"),

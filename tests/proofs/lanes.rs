@@ -22,7 +22,12 @@ fn quoted_by(script: &str) -> &'static [(&'static str, &'static str)] {
     if script.starts_with("sum_") {
         &[(SUM, "high_origin"), (SUM, "low_origin"), (SUM, "add")]
     } else if script.starts_with("log_odds_f64") {
-        &[(DOUBLE, "value"), (DOUBLE, "bounds"), (OCCUPANCY_DOUBLE, "complements")]
+        &[
+            (DOUBLE, "value"),
+            (DOUBLE, "bounds"),
+            (OCCUPANCY_DOUBLE, "leading"),
+            (OCCUPANCY_DOUBLE, "complements"),
+        ]
     } else if script.starts_with("far_") {
         &[(FAR, "value"), (FAR, "factor"), (FAR, "bounds")]
     } else if script.starts_with("log_odds_f32") {
@@ -38,6 +43,7 @@ fn quoted_by(script: &str) -> &'static [(&'static str, &'static str)] {
     } else {
         &[
             (OCCUPANCY_DOUBLE, "value"),
+            (OCCUPANCY_DOUBLE, "leading"),
             (OCCUPANCY_DOUBLE, "series"),
             (OCCUPANCY_DOUBLE, "bounds"),
             (OCCUPANCY_DOUBLE, "complements"),

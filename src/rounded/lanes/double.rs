@@ -121,6 +121,15 @@ pub(super) fn value<const FUSED: bool, const ENTROPY: bool>(
         1.0 - c
     };
     let series = series::<FUSED>(b, y);
+    let (head, lost, second) = leading::<FUSED>(value, slope, h);
+    // Error, `R` and sums: from here on all is at most `2^-14.2 V`, and each operation rounds by `u` of that.
+    let products = fused(h * y, series, fused(slope_low, h, second));
+    (head, products + (lost + value_low))
+}
+
+/// Computes `value + slope h`: a float, what the sum has lost, and what the product has.
+#[inline(always)]
+pub(super) fn leading<const FUSED: bool>(value: f64, slope: f64, h: f64) -> (f64, f64, f64) {
     // Error, slope: the product of slope and `h` and what it loses; not fused, the second is rounded at `2^-14.9 V`.
     let (first, second) = if FUSED {
         let first = slope * h;
@@ -131,9 +140,7 @@ pub(super) fn value<const FUSED: bool, const ENTROPY: bool>(
     // Error, sums: Dekker's fast sum, since `|first| < 2^-6.9 V`; what `head` has lost goes to the rest.
     let head = value + first;
     let lost = (value - head) + first;
-    // Error, `R` and sums: from here on all is at most `2^-14.2 V`, and each operation rounds by `u` of that.
-    let products = fused(h * y, series, fused(slope_low, h, second));
-    (head, products + (lost + value_low))
+    (head, lost, second)
 }
 
 /// Computes `E(b, y)`, see [`value`]: the coefficients of the chapter, even and odd ones apart.

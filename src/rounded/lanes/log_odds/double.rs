@@ -6,7 +6,7 @@
 use super::far::CERTAIN;
 use super::table::{FIRST, LAST, SEVENTH, SIXTH, Table, centre};
 use super::{NEAR, Quantity};
-use crate::rounded::lanes::double::complements;
+use crate::rounded::lanes::double::{complements, leading};
 use crate::rounded::lanes::format::{BLOCK, Lane, Split};
 use crate::rounded::lanes::kernel::{Block, Results, fused, halves, mark};
 
@@ -115,16 +115,8 @@ pub(super) fn value<const FUSED: bool>(table: &Table, x: f64) -> (f64, f64) {
     let hh = h * h;
     let high = fused(hh, fused(h, a7, a6), fused(h, a5, a4));
     let series = fused(hh, high, fused(h, a3, a2));
-    // Slope: the product of slope and `h` and what it loses.
-    let (first, second) = if FUSED {
-        let first = slope * h;
-        (first, f64::fused(slope, h, -first))
-    } else {
-        (slope.head() * h, (slope - slope.head()) * h)
-    };
-    // Sums: Dekker's fast sum; what `head` has lost goes to the rest.
-    let head = value + first;
-    let lost = (value - head) + first;
+    // Slope, sums: the product of slope and `h` and the sum, and what they lose.
+    let (head, lost, second) = leading::<FUSED>(value, slope, h);
     let products = fused(hh, series, fused(slope_low, h, second));
     (head, products + (lost + value_low))
 }
